@@ -1,0 +1,42 @@
+// The one error that reading and writing files throws.
+#ifndef BRDFIT_IO_ERROR_H_
+#define BRDFIT_IO_ERROR_H_
+
+#include <stdexcept>
+#include <string>
+
+namespace brdfit::io {
+
+// What is wrong with a file: its name, what was found, what was expected, and what to do about it.
+// what() is all of it on one line: "FILE: FOUND (expected EXPECTED); ADVICE".
+class IoError : public std::runtime_error {
+ public:
+  // Whether the input cannot be used, or writing failed: they end in different exit codes.
+  enum class Side { kInput, kOutput };
+
+  IoError(Side side, std::string file, std::string found, std::string expected, std::string advice = "")
+      : std::runtime_error(file + ": " + found + (expected.empty() ? "" : " (expected " + expected + ")") +
+                           (advice.empty() ? "" : "; " + advice)),
+        side_(side),
+        file_(std::move(file)),
+        found_(std::move(found)),
+        expected_(std::move(expected)),
+        advice_(std::move(advice)) {}
+
+  Side side() const { return side_; }
+  const std::string& file() const { return file_; }
+  const std::string& found() const { return found_; }
+  const std::string& expected() const { return expected_; }
+  const std::string& advice() const { return advice_; }
+
+ private:
+  Side side_;
+  std::string file_;
+  std::string found_;
+  std::string expected_;
+  std::string advice_;
+};
+
+}  // namespace brdfit::io
+
+#endif  // BRDFIT_IO_ERROR_H_

@@ -1,0 +1,15 @@
+// SHA-256 of a file: the identity of an input in every result.
+#ifndef BRDFIT_IO_SHA256_H_
+#define BRDFIT_IO_SHA256_H_
+
+#include <filesystem>
+#include <string>
+
+namespace brdfit::io {
+
+// 64 lower-case hexadecimal digits. Throws IoError (kInput) when the file cannot be read.
+std::string sha256_of_file(const std::filesystem::path& file);
+
+}  // namespace brdfit::io
+
+#endif  // BRDFIT_IO_SHA256_H_

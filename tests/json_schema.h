@@ -1,0 +1,130 @@
+// Validation of JSON against the part of JSON Schema (draft 2020-12) that the project's schemas use.
+#ifndef BRDFIT_TESTS_JSON_SCHEMA_H_
+#define BRDFIT_TESTS_JSON_SCHEMA_H_
+
+#include <algorithm>
+#include <set>
+#include <stdexcept>
+#include <string>
+#include <utility>
+
+#include "io/json.h"
+
+namespace brdfit::tests {
+
+// A schema; a keyword that is not known here is an error, not a pass.
+class JsonSchema {
+ public:
+  explicit JsonSchema(io::Json schema) : root_(std::move(schema)) {}
+
+  // What the value breaks first, as "PLACE: KEYWORD"; empty if it is valid.
+  std::string complaint(const io::Json& value) const { return check(root_, value, ""); }
+
+ private:
+  using Json = io::Json;
+
+  std::string check(const Json& schema, const Json& value, const std::string& place) const {
+    if (schema.is_boolean()) return schema.get<bool>() ? "" : place + ": not allowed";
+    for (const auto& [keyword, rule] : schema.items()) {
+      std::string found = check_keyword(schema, keyword, rule, value, place);
+      if (!found.empty()) return found;
+    }
+    return "";
+  }
+
+  std::string check_keyword(const Json& schema, const std::string& keyword, const Json& rule,
+                            const Json& value, const std::string& place) const {
+    static const std::set<std::string> kNotes = {"$schema",     "$defs",   "title",
+                                                 "description", "default", "then"};
+    if (kNotes.contains(keyword)) return "";
+    if (keyword == "$ref") return check(resolve(rule.get<std::string>()), value, place);
+    if (keyword == "if") {
+      const bool applies = check(rule, value, place).empty() && schema.contains("then");
+      return applies ? check(schema["then"], value, place) : "";
+    }
+    if (keyword == "allOf") {
+      for (const Json& part : rule) {
+        if (std::string found = check(part, value, place); !found.empty()) return found;
+      }
+      return "";
+    }
+    if (keyword == "properties" || keyword == "items") return check_inside(keyword, rule, value, place);
+    return holds(schema, keyword, rule, value) ? "" : place + ": " + keyword;
+  }
+
+  std::string check_inside(const std::string& keyword, const Json& rule, const Json& value,
+                           const std::string& place) const {
+    const bool is_list = keyword == "items";
+    if (is_list ? !value.is_array() : !value.is_object()) return "";
+    for (const auto& [key, member] : value.items()) {
+      if (!is_list && !rule.contains(key)) continue;
+      std::string found = check(is_list ? rule : rule[key], member, place + "/" + key);
+      if (!found.empty()) return found;
+    }
+    return "";
+  }
+
+  // The keywords that look at one value alone. Each passes for values of other types, as the standard says.
+  static bool holds(const Json& schema, const std::string& keyword, const Json& rule, const Json& value) {
+    if (keyword == "type") return has_type(value, rule.get<std::string>());
+    if (keyword == "const") return value == rule;
+    if (keyword == "enum") return std::find(rule.begin(), rule.end(), value) != rule.end();
+    if (keyword == "minimum") return !value.is_number() || value >= rule;
+    if (keyword == "maximum") return !value.is_number() || value <= rule;
+    if (keyword == "minItems") return !value.is_array() || value.size() >= rule.get<std::size_t>();
+    if (keyword == "maxItems") return !value.is_array() || value.size() <= rule.get<std::size_t>();
+    if (keyword == "uniqueItems") return !value.is_array() || is_unique(value);
+    if (keyword == "required") return !value.is_object() || has_all(value, rule);
+    if (keyword == "additionalProperties" && rule == false) {
+      return !value.is_object() || has_only(value, schema["properties"]);
+    }
+    if (keyword == "dependentRequired") {
+      if (!value.is_object()) return true;
+      const auto items = rule.items();
+      return std::all_of(items.begin(), items.end(), [&](const auto& item) {
+        return !value.contains(item.key()) || has_all(value, item.value());
+      });
+    }
+    throw std::logic_error("JsonSchema does not know the keyword " + keyword);
+  }
+
+  static bool has_type(const Json& value, const std::string& type) {
+    if (type == "object") return value.is_object();
+    if (type == "array") return value.is_array();
+    if (type == "string") return value.is_string();
+    if (type == "number") return value.is_number();
+    if (type == "integer") return value.is_number_integer();
+    if (type == "boolean") return value.is_boolean();
+    throw std::logic_error("JsonSchema does not know the type " + type);
+  }
+
+  static bool is_unique(const Json& list) {
+    for (auto item = list.begin(); item != list.end(); ++item) {
+      if (std::find(std::next(item), list.end(), *item) != list.end()) return false;
+    }
+    return true;
+  }
+
+  static bool has_all(const Json& object, const Json& keys) {
+    return std::all_of(keys.begin(), keys.end(),
+                       [&](const Json& key) { return object.contains(key.get_ref<const std::string&>()); });
+  }
+
+  static bool has_only(const Json& object, const Json& properties) {
+    const auto items = object.items();
+    return std::all_of(items.begin(), items.end(),
+                       [&](const auto& item) { return properties.contains(item.key()); });
+  }
+
+  const Json& resolve(const std::string& reference) const {
+    if (reference.empty() || reference[0] != '#')
+      throw std::logic_error("not a local reference: " + reference);
+    return root_.at(Json::json_pointer(reference.substr(1)));
+  }
+
+  Json root_;
+};
+
+}  // namespace brdfit::tests
+
+#endif  // BRDFIT_TESTS_JSON_SCHEMA_H_
