@@ -1,0 +1,213 @@
+// The course of a fit: sample, explore, refine, look at the evidence, measure.
+#include "fit/fit.h"
+
+#include <fmt/format.h>
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <stdexcept>
+
+#include "brdf/models.h"
+#include "fit/explore.h"
+#include "fit/problem.h"
+#include "fit/solve.h"
+
+namespace brdfit::fit {
+namespace {
+
+// Exploration looks at a thinned part of the observations: about this many. Fewer lose minima, more only cost
+// time.
+constexpr std::size_t kExplored = 2400;
+// How much wider the squares of a robust loss reach while searching.
+constexpr double kWidening = 3.0;
+constexpr std::size_t kRefined = 2;  // starts that are refined on all samples
+
+class Stopwatch {
+ public:
+  double lap_seconds() {
+    const auto now = std::chrono::steady_clock::now();
+    const double seconds = std::chrono::duration<double>(now - last_).count();
+    last_ = now;
+    return seconds;
+  }
+
+ private:
+  std::chrono::steady_clock::time_point last_ = std::chrono::steady_clock::now();
+};
+
+Effects effects_to_fit(const FitOptions& options) {
+  const Effects all = effects_of(options.model).without(Effect::kAnisotropic);
+  return options.effects ? Effects(options.effects->bits() & all.bits()) : all;
+}
+
+Material start_material(const FitOptions& options) {
+  Material material = options.init ? *options.init : Material(options.model);
+  material.options() = options.material_options;
+  return material;
+}
+
+SampleSet draw_samples(const MeasuredTable& table, const FitOptions& options, const Material& material) {
+  SamplingOptions sampling;
+  sampling.max_theta_deg = options.max_theta_deg;
+  // A reciprocal material says the same of both orders of a cell.
+  sampling.both_orders = !is_reciprocal(material);
+  SampleSet samples = options.on == FitOn::kTable
+                          ? sample_table(table, options.samples, options.seed, sampling)
+                          : sample_slices(table, options.phi_d_deg, sampling);
+  if (samples.size() == 0) throw std::invalid_argument("no valid cell lies within the given angles");
+  return samples;
+}
+
+// The best candidates that are not the same minimum found twice, at most count of them.
+std::vector<Candidate> distinct(const std::vector<Candidate>& candidates, std::size_t count) {
+  std::vector<Candidate> result;
+  for (const Candidate& candidate : candidates) {
+    if (result.size() == count) break;
+    // Worse than this on the part of the samples will not be best on all.
+    if (candidate.solution.cost > 1.1 * candidates.front().solution.cost) break;
+    const bool found = std::ranges::any_of(result, [&](const Candidate& other) {
+      return candidate.solution.cost <= other.solution.cost * (1.0 + 1e-4);
+    });
+    if (!found) result.push_back(candidate);
+  }
+  return result;
+}
+
+// All samples of a fit, and a part of them to explore on.
+struct Data {
+  SampleSet all;
+  SampleSet part;
+  Targets all_targets;
+  Targets part_targets;
+  Targets part_wide_targets;
+
+  Data(SampleSet samples, Loss loss) : all(std::move(samples)) {
+    const std::size_t stride = (all.size() + kExplored - 1) / kExplored;
+    part = all.thinned(stride);
+    all_targets = make_targets(all, loss);
+    part_targets = make_targets(part, loss);
+    part_wide_targets = part_targets;
+    part_wide_targets.robust_width *= kWidening;
+  }
+};
+
+class Fitter {
+ public:
+  Fitter(const MeasuredTable& table, const FitOptions& options)
+      : table_(table),
+        options_(options),
+        parametrisation_(make_parametrisation(start_material(options),
+                                              {options.tier, effects_to_fit(options), options.fixed})),
+        data_(draw_samples(table, options, parametrisation_.start), options.loss),
+        on_part_(parametrisation_, data_.part, data_.part_targets, options.loss),
+        on_part_wide_(parametrisation_, data_.part, data_.part_wide_targets, options.loss),
+        on_all_(parametrisation_, data_.all, data_.all_targets, options.loss) {}
+
+  FitResult run() {
+    result_.options = options_;
+    result_.observations = data_.all.size();
+    result_.free_parameters = static_cast<int>(parametrisation_.size());
+    result_.timings.sample_seconds = watch_.lap_seconds();
+    explore_starts();
+    result_.timings.explore_seconds = watch_.lap_seconds();
+    refine_best();
+    result_.timings.refine_seconds = watch_.lap_seconds();
+    look_at_evidence();
+    result_.timings.evidence_seconds = watch_.lap_seconds();
+    result_.evaluation = evaluate(result_.material, table_, options_.max_theta_deg);
+    result_.timings.measure_seconds = watch_.lap_seconds();
+    const FitTimings& t = result_.timings;
+    result_.timings.total_seconds =
+        t.sample_seconds + t.explore_seconds + t.refine_seconds + t.evidence_seconds + t.measure_seconds;
+    return std::move(result_);
+  }
+
+ private:
+  void explore_starts() {
+    std::vector<std::vector<double>> seeds;
+    if (options_.init) seeds.push_back(parametrisation_.from_material(*options_.init));
+    candidates_ = explore(on_part_, on_part_wide_, data_.part, seeds, {options_.starts, options_.seed});
+    result_.starts = static_cast<int>(candidates_.size());
+    for (const Candidate& candidate : candidates_) result_.evaluations += candidate.solution.evaluations;
+  }
+
+  void refine_best() {
+    const double best_cost = candidates_.front().solution.cost;
+    result_.starts_near_best = static_cast<int>(std::ranges::count_if(
+        candidates_, [&](const Candidate& c) { return c.solution.cost <= 1.05 * best_cost; }));
+    std::vector<Candidate> refined = distinct(candidates_, kRefined);
+    tbb::parallel_for(std::size_t{0}, refined.size(), [&](std::size_t k) {
+      refined[k].solution = solve_pinning(on_all_, refined[k].solution.x, refined[k].box, {});
+    });
+    for (const Candidate& candidate : refined) result_.evaluations += candidate.solution.evaluations;
+    published_ = *std::ranges::min_element(refined, {}, [](const Candidate& c) { return c.solution.cost; });
+  }
+
+  void look_at_evidence() {
+    const Solution& solution = published_.solution;
+    const Identifiability identifiability = identify(parametrisation_, solution.x, on_all_.gram(solution.x));
+    result_.parameters = public_states(parametrisation_, solution.x, identifiability);
+    result_.correlated = identifiability.correlated;
+    result_.material = parametrisation_.to_material(solution.x);
+    result_.cost = solution.cost;
+    result_.iterations = solution.iterations;
+    result_.converged = solution.converged;
+    result_.termination = solution.termination;
+  }
+
+  const MeasuredTable& table_;
+  FitOptions options_;
+  Stopwatch watch_;
+  Parametrisation parametrisation_;
+  Data data_;
+  Problem on_part_;
+  Problem on_part_wide_;
+  Problem on_all_;
+  std::vector<Candidate> candidates_;
+  Candidate published_;
+  FitResult result_;
+};
+
+}  // namespace
+
+std::string_view name_of(FitOn on) {
+  return on == FitOn::kTable ? "table" : "slices";
+}
+
+std::optional<FitOn> fit_on_by_name(std::string_view name) {
+  for (const FitOn on : {FitOn::kTable, FitOn::kSlices}) {
+    if (name_of(on) == name) return on;
+  }
+  return std::nullopt;
+}
+
+bool FitOptions::is_valid(std::string* why) const {
+  const auto fail = [&](const std::string& text) {
+    if (why != nullptr) *why = text;
+    return false;
+  };
+  if (starts < 1) return fail(fmt::format("starts is {}; at least 1 is needed", starts));
+  if (samples < 1) return fail("samples is 0; at least 1 is needed");
+  if (!(max_theta_deg > 0.0 && max_theta_deg <= 90.0)) {
+    return fail(fmt::format("max theta is {} deg, not in (0, 90]", max_theta_deg));
+  }
+  if (on == FitOn::kSlices && phi_d_deg.empty()) return fail("no phi_d is given for the slices");
+  for (const double phi_d : phi_d_deg) {
+    if (!(phi_d >= 0.0 && phi_d < 180.0)) return fail(fmt::format("phi_d is {} deg, not in [0, 180)", phi_d));
+  }
+  if (init && init->model() != model) {
+    return fail(
+        fmt::format("the material to start from is {}, not {}", title_of(init->model()), title_of(model)));
+  }
+  return true;
+}
+
+FitResult fit(const MeasuredTable& table, const FitOptions& options) {
+  std::string why;
+  if (!options.is_valid(&why)) throw std::invalid_argument(why);
+  return Fitter(table, options).run();
+}
+
+}  // namespace brdfit::fit

@@ -1,0 +1,83 @@
+// Fitting a model to a measured table: options in, material and evidence out.
+#ifndef BRDFIT_FIT_FIT_H_
+#define BRDFIT_FIT_FIT_H_
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "brdf/material.h"
+#include "fit/identifiability.h"
+#include "fit/loss.h"
+#include "fit/metrics.h"
+#include "fit/parameters.h"
+#include "measured/sampling.h"
+#include "measured/table.h"
+
+namespace brdfit::fit {
+
+// What a material is fitted to.
+enum class FitOn { kTable, kSlices };
+
+std::string_view name_of(FitOn on);  // "table", "slices"
+std::optional<FitOn> fit_on_by_name(std::string_view name);
+
+struct FitOptions {
+  Model model = Model::kCallisto;
+  MaterialOptions material_options;
+  Tier tier = Tier::kFull;
+  // The effects that the fit may use; all of the model's where absent. (Anisotropy never is: data are
+  // isotropic.)
+  std::optional<Effects> effects;
+  FixedValues fixed;
+  // A material to start from, of the same model; its values hold where nothing is free.
+  std::optional<Material> init;
+
+  FitOn on = FitOn::kTable;
+  std::vector<double> phi_d_deg = {90.0};  // for slices
+  double max_theta_deg = 90.0;
+  std::size_t samples = 20000;  // cells of the table; kAllSamples for every one
+  Loss loss = Loss::kLogRatio;
+  int starts = 12;
+  std::uint64_t seed = 1;
+
+  // Whether the options make sense together; if not, *why (when not null) says what does not.
+  bool is_valid(std::string* why) const;
+};
+
+struct FitTimings {
+  double sample_seconds = 0.0;
+  double explore_seconds = 0.0;   // all starts, on a part of the samples
+  double refine_seconds = 0.0;    // the best of them, on all
+  double evidence_seconds = 0.0;  // identifiability, the dielectric test
+  double measure_seconds = 0.0;   // error measures on slice and table
+  double total_seconds = 0.0;
+};
+
+struct FitResult {
+  Material material;
+  FitOptions options;
+  std::size_t observations = 0;  // residuals per channel: a cell may be two, (wi, wo) and (wo, wi)
+  double cost = 0.0;             // half of the weighted mean square of the residuals, summed over channels
+  int starts = 0;
+  int starts_near_best = 0;  // that ended within 5% of the best cost
+  int iterations = 0;        // of the published solve
+  int evaluations = 0;       // over all solves
+  bool converged = false;
+  std::string termination;  // in words
+  int free_parameters = 0;
+  std::vector<ParameterState> parameters;  // every free or fixed public parameter
+  std::vector<CorrelatedPair> correlated;
+  std::vector<std::string> notes;  // what a reader of the result must know, in sentences
+  Evaluation evaluation;
+  FitTimings timings;
+};
+
+// Throws std::invalid_argument when the options are not valid for the model, or no cell is left to fit.
+// Parallel over starts with TBB; the result does not depend on the number of threads.
+FitResult fit(const MeasuredTable& table, const FitOptions& options);
+
+}  // namespace brdfit::fit
+
+#endif  // BRDFIT_FIT_FIT_H_

@@ -1,0 +1,55 @@
+// Sums over samples that a least-squares step needs: the Gram matrices of residuals and derivatives, per
+// colour channel, over the coefficients that one channel depends on.
+#ifndef BRDFIT_FIT_GRAM_H_
+#define BRDFIT_FIT_GRAM_H_
+
+#include <cstddef>
+
+#include "brdf/simd/jobs.h"
+
+namespace brdfit::fit {
+
+// The largest number of coefficients of a channel (Callisto: 9 of the shape, 5 of the colour), and the side
+// of a Gram matrix: coefficients, then the residual, padded with zeros to whole vector tiles.
+inline constexpr int kMaxCoefficients = 14;
+inline constexpr int kGramSide = 16;
+
+// How many coefficients a channel has, in the order of a Gram matrix' rows: the shape, then the colour.
+// Burley's alpha_x and alpha_y count as one, as data are isotropic.
+inline constexpr int kLambertGgxCoefficients = 3;
+inline constexpr int kBurleyCoefficients = 8;
+inline constexpr int kCallistoCoefficients = 14;
+
+// With r = transform(f cos_i) - target[c][k] and u = min(f, 1) - clipped_target[c][k], sample k of channel c
+// costs
+//   weight[k] (robust(r) + clipped_share[k] u^2 / 2),
+// where robust(r) is r^2 / 2 if robust_width is 0, else the pseudo-Huber d^2 (sqrt(1 + (r/d)^2) - 1) with
+// d = robust_width: squares below d, absolute values above.
+struct GramJob {
+  simd::Coefficients coefficients;
+  simd::GeometryColumns geometry;
+  const double* sqrt_weight = nullptr;
+  const double* target[3] = {};
+  std::size_t count = 0;  // a multiple of simd::kBlock
+  int loss = 0;           // as fit::Loss
+  double robust_width = 0.0;
+  double clipped_width = 0.0;
+  const double* clipped_share = nullptr;
+  const double* clipped_target[3] = {};
+};
+
+// Per channel, rows and columns 0..n-1: products of derivatives; row and column n: with the residual, where n
+// is the number of coefficients of the model. The upper triangle is filled, by rows. Robust residuals are
+// weighted by 1/sqrt(1 + (r/d)^2), so that the products with the residual are the gradient of the cost.
+struct Gram {
+  double channel[3][kGramSide * kGramSide];
+  double cost;
+};
+
+using GramFunction = void (*)(const GramJob&, Gram&);
+// The cost alone.
+using CostFunction = double (*)(const GramJob&);
+
+}  // namespace brdfit::fit
+
+#endif  // BRDFIT_FIT_GRAM_H_

@@ -1,0 +1,279 @@
+// Vectorised Gram matrices. Compiled once for every instruction set.
+//
+// Shapes are differentiated by running the kernels on dual numbers in the few parameters that each term
+// depends on; the combination of terms to a channel is differentiated by hand, as it is linear in nearly
+// everything.
+#include "fit/gram.h"
+
+#include "brdf/simd/dual.h"
+#include "brdf/simd/model_lanes.h"
+#include "fit/loss_kernel.h"
+
+namespace brdfit::simd::BRDFIT_SIMD_ISA {
+namespace {
+
+using fit::Gram;
+using fit::GramJob;
+using fit::kGramSide;
+using fit::kMaxCoefficients;
+
+template <int N>
+using D = Dual<double, N>;
+
+// A channel's f cos_i and its derivatives.
+struct Row {
+  V y;
+  V dy[kMaxCoefficients];
+};
+
+struct LambertGgxRows : LambertGgxLanes {
+  static constexpr int coefficients = fit::kLambertGgxCoefficients;
+  using LambertGgxLanes::LambertGgxLanes;
+  kernel::LambertGgxTerms<D<1>> at;
+  kernel::LambertGgxTerms<V> value;
+
+  HWY_INLINE void prepare(const kernel::Geometry<V>& g, const kernel::GeometryLogs<V>&) {
+    const kernel::LambertGgxShape<D<1>> s = {D<1>(shape.alpha, 0)};
+    at = kernel::lambert_ggx_terms(s, g, masking, diffuse);
+    value = {at.diffuse.a, at.falloff.a, at.specular.a};
+  }
+  HWY_INLINE void row(int c, Row& r) const {
+    const V f = kernel::fresnel(colour[c].f0, value.falloff);
+    r.y = combine(c, value);
+    r.dy[0] = colour[c].rho * at.diffuse.d[0] + f * at.specular.d[0];
+    r.dy[1] = value.diffuse;
+    r.dy[2] = (V(1.0) - value.falloff) * value.specular;
+  }
+};
+
+struct BurleyRows : BurleyLanes {
+  static constexpr int coefficients = fit::kBurleyCoefficients;
+  using BurleyLanes::BurleyLanes;
+  kernel::BurleyTerms<D<4>> at;
+  kernel::BurleyTerms<V> value;
+
+  HWY_INLINE void prepare(const kernel::Geometry<V>& g, const kernel::GeometryLogs<V>&) {
+    const kernel::BurleyShape<D<4>> s = {D<4>(shape.roughness, 0), D<4>(shape.subsurface, 1),
+                                         D<4>(shape.alpha_x, 2), D<4>(shape.alpha_y, 2),
+                                         D<4>(shape.clearcoat_alpha, 3)};
+    at = kernel::burley_terms(s, g, burley_g, effects);
+    value = {at.diffuse.a, at.sheen.a, at.falloff.a, at.specular.a, at.clearcoat.a};
+  }
+  HWY_INLINE void row(int c, Row& r) const {
+    const V f = kernel::fresnel(colour[c].f0, value.falloff);
+    r.y = combine(c, value);
+    for (int k = 0; k < 4; ++k) {
+      r.dy[k] =
+          colour[c].rho * at.diffuse.d[k] + f * at.specular.d[k] + colour[c].clearcoat * at.clearcoat.d[k];
+    }
+    r.dy[4] = value.diffuse;
+    r.dy[5] = value.sheen;
+    r.dy[6] = (V(1.0) - value.falloff) * value.specular;
+    r.dy[7] = value.clearcoat;
+  }
+};
+
+struct CallistoRows : CallistoLanes {
+  static constexpr int coefficients = fit::kCallistoCoefficients;
+  using CallistoLanes::CallistoLanes;
+  kernel::CallistoTerms<V> value;
+  V d_diffuse_alpha, d_specular_alpha_1, d_specular_alpha_2, d_specular_opacity, d_falloff, d_step;
+  V d_fresnel_exponent, d_fresnel_tangent, d_retro_exponent, d_retro_tangent;
+
+  HWY_INLINE bool has(int effect) const { return (effects & effect) != 0; }
+
+  HWY_INLINE void prepare(const kernel::Geometry<V>& g, const kernel::GeometryLogs<V>& logs) {
+    value = terms(g, logs);
+    prepare_specular(g);
+    d_diffuse_alpha = kernel::diffuse_base_cos(D<1>(shape.alpha_1, 0), g, diffuse).d[0];
+    d_falloff = V(0.0);
+    if (has(BRDF_EFFECT_SPECULAR_FRESNEL_FALLOFF)) {
+      d_falloff = kernel::callisto_specular_falloff(D<1>(shape.specular_falloff, 0), g.one_minus_cos_d,
+                                                    logs.one_minus_cos_d)
+                      .d[0];
+    }
+    d_fresnel_exponent = value.fresnel * logs.one_minus_cos_d;
+    d_fresnel_tangent = value.fresnel * logs.cos_h;
+    d_retro_exponent = value.retro * logs.one_minus_cos_h;
+    d_retro_tangent = value.retro * logs.cos_d;
+    d_step = V(0.0);
+    if (has(BRDF_EFFECT_SMOOTH_TERMINATOR)) {
+      d_step =
+          kernel::smoothstep_from_zero(value.terminator * D<1>(shape.terminator_length, 0), g.cos_i).d[0];
+    }
+  }
+
+  HWY_INLINE void prepare_specular(const kernel::Geometry<V>& g) {
+    const D<1> lobe_1 = kernel::ggx_lobe(D<1>(shape.alpha_1, 0), g, masking);
+    V share_1 = V(1.0);
+    d_specular_alpha_2 = V(0.0);
+    d_specular_opacity = V(0.0);
+    if (has(BRDF_EFFECT_DUAL_SPECULAR)) {
+      const D<1> lobe_2 = kernel::ggx_lobe(D<1>(shape.alpha_2, 0), g, masking);
+      share_1 = V(1.0) - shape.opacity;
+      d_specular_alpha_2 = shape.opacity * lobe_2.d[0] * g.cos_i;
+      d_specular_opacity = (lobe_2.a - lobe_1.a) * g.cos_i;
+    }
+    d_specular_alpha_1 = share_1 * lobe_1.d[0] * g.cos_i;
+  }
+
+  // y = sum c2 with sum = gain_f gain_r rho diffuse + f specular, as callisto_combine writes it.
+  HWY_INLINE void row(int c, Row& r) const {
+    const kernel::CallistoColour<V>& k = colour[c];
+    const V one(1.0);
+    const V gain_f = one + (k.fresnel - one) * value.fresnel;
+    const V gain_r = one + (k.retro - one) * value.retro;
+    const V f = kernel::fresnel(k.f0, value.falloff);
+    const V c2 = one + (value.terminator_step - one) * (value.terminator * k.terminator);
+    const V sum = gain_f * gain_r * k.rho * value.diffuse + f * value.specular;
+    const V by_specular = f * c2;
+    const V by_gain_f = gain_r * k.rho * value.diffuse * c2;
+    const V by_gain_r = gain_f * k.rho * value.diffuse * c2;
+    r.y = combine(c, value);
+    r.dy[0] = by_specular * d_specular_alpha_1 + gain_f * gain_r * k.rho * d_diffuse_alpha * c2;
+    r.dy[1] = by_specular * d_specular_alpha_2;
+    r.dy[2] = by_specular * d_specular_opacity;
+    r.dy[3] = by_gain_f * (k.fresnel - one) * d_fresnel_exponent;
+    r.dy[4] = by_gain_f * (k.fresnel - one) * d_fresnel_tangent;
+    r.dy[5] = by_gain_r * (k.retro - one) * d_retro_exponent;
+    r.dy[6] = by_gain_r * (k.retro - one) * d_retro_tangent;
+    r.dy[7] = (one - k.f0) * d_falloff * value.specular * c2;
+    r.dy[8] = sum * value.terminator * k.terminator * d_step;
+    r.dy[9] = gain_f * gain_r * value.diffuse * c2;
+    r.dy[10] = (one - value.falloff) * value.specular * c2;
+    r.dy[11] = by_gain_f * value.fresnel;
+    r.dy[12] = by_gain_r * value.retro;
+    r.dy[13] = sum * (value.terminator_step - one) * value.terminator;
+  }
+};
+
+// Rows of one channel over a block of samples: derivatives, then the residual, then zeros up to the tile. The
+// block is long enough for the sums across lanes at its end to weigh little, and short enough for the
+// second-level cache.
+constexpr std::size_t kRowLength = 4 * kBlock;
+using BlockRows = double[kGramSide][kRowLength];
+
+// Adds the products of rows, tile by tile, to the upper triangle.
+template <int Rows>
+void add_products(const BlockRows& rows, std::size_t length, double* gram) {
+  constexpr int tile = 4;
+  for (int i = 0; i < Rows; i += tile) {
+    for (int j = i; j < Rows; j += tile) {
+      V sums[tile][tile];
+      for (int a = 0; a < tile; ++a) {
+        for (int b = 0; b < tile; ++b) sums[a][b] = V(0.0);
+      }
+      for (std::size_t at = 0; at < length; at += V::size) {
+        V left[tile];
+        for (int a = 0; a < tile; ++a) left[a] = V::load(rows[i + a] + at);
+        for (int b = 0; b < tile; ++b) {
+          const V right = V::load(rows[j + b] + at);
+          for (int a = 0; a < tile; ++a) sums[a][b] = multiply_add(left[a], right, sums[a][b]);
+        }
+      }
+      for (int a = 0; a < tile; ++a) {
+        for (int b = 0; b < tile; ++b) gram[(i + a) * kGramSide + j + b] += sum(sums[a][b]);
+      }
+    }
+  }
+}
+
+// How a channel's value counts: the slope and the residual of its row in the Gram matrix, and its cost, all
+// without the sample's weight.
+struct Counted {
+  V slope;
+  V residual;
+  V cost;
+};
+
+// The cost of a residual and the weight that its square has in it.
+HWY_INLINE V robust_cost(V residual, double width, V& weight) {
+  if (width == 0.0) {
+    weight = V(1.0);
+    return V(0.5) * residual * residual;
+  }
+  const V t = residual * V(1.0 / width);
+  const V root = sqrt(V(1.0) + t * t);
+  weight = V(1.0) / root;
+  return V(width * width) * (t * t / (root + V(1.0)));  // root - 1 without cancellation
+}
+
+HWY_INLINE Counted count(const GramJob& job, int c, std::size_t at, V y, V cos_i) {
+  const auto main = fit::transform(job.loss, y, cos_i);
+  const auto clipped = fit::transform(BRDFIT_LOSS_SLICE, y, cos_i);
+  const V r = main.value - V::load(job.target[c] + at);
+  const V u = clipped.value - V::load(job.clipped_target[c] + at);
+  const V share = V::load(job.clipped_share + at);
+  V weight;
+  V clipped_weight;
+  const V main_cost = robust_cost(r, job.robust_width, weight);
+  const V cost = multiply_add(share, robust_cost(u, job.clipped_width, clipped_weight), main_cost);
+  const V clipped_slope = share * clipped_weight * clipped.slope;
+  // Two residuals with slopes a and b and the same derivatives are one with slope sqrt(a^2 + b^2), as far as
+  // the Gram matrix goes.
+  const V slope_squared = weight * main.slope * main.slope + clipped_slope * clipped.slope;
+  const V slope = sqrt(kernel::at_least(slope_squared, V(1e-200)));
+  return {slope, (weight * main.slope * r + clipped_slope * u) / slope, cost};
+}
+
+template <class ModelRows>
+HWY_FLATTEN void gram_of(const GramJob& job, Gram& gram) {
+  constexpr int n = ModelRows::coefficients;
+  constexpr int padded = (n + 1 + 3) / 4 * 4;
+  ModelRows model(job.coefficients);
+  BlockRows blocks[3] = {};
+  V total(0.0);
+  for (std::size_t first = 0; first < job.count; first += kRowLength) {
+    const std::size_t length = job.count - first < kRowLength ? job.count - first : kRowLength;
+    for (std::size_t at = 0; at < length; at += V::size) {
+      const kernel::Geometry<V> g = load_geometry(job.geometry, first + at);
+      model.prepare(g, load_logs(job.geometry, first + at));
+      const V weight = V::load(job.sqrt_weight + first + at);
+      for (int c = 0; c < 3; ++c) {
+        Row row;
+        model.row(c, row);
+        const Counted counted = count(job, c, first + at, row.y, g.cos_i);
+        const V slope = weight * counted.slope;
+        for (int k = 0; k < n; ++k) (row.dy[k] * slope).store(blocks[c][k] + at);
+        (weight * counted.residual).store(blocks[c][n] + at);
+        total = multiply_add(weight * weight, counted.cost, total);
+      }
+    }
+    for (int c = 0; c < 3; ++c) add_products<padded>(blocks[c], length, gram.channel[c]);
+  }
+  gram.cost = sum(total);
+}
+
+template <class ModelLanes>
+HWY_FLATTEN double cost_of(const GramJob& job) {
+  const ModelLanes model(job.coefficients);
+  V total(0.0);
+  for (std::size_t at = 0; at < job.count; at += V::size) {
+    const kernel::Geometry<V> g = load_geometry(job.geometry, at);
+    const auto terms = model.terms(g, load_logs(job.geometry, at));
+    const V weight = V::load(job.sqrt_weight + at);
+    for (int c = 0; c < 3; ++c) {
+      total = multiply_add(weight * weight, count(job, c, at, model.combine(c, terms), g.cos_i).cost, total);
+    }
+  }
+  return sum(total);
+}
+
+}  // namespace
+
+void accumulate_gram(const GramJob& job, Gram& gram) {
+  for (auto& channel : gram.channel) {
+    for (double& entry : channel) entry = 0.0;
+  }
+  if (job.coefficients.model == 0) return gram_of<LambertGgxRows>(job, gram);
+  if (job.coefficients.model == 1) return gram_of<BurleyRows>(job, gram);
+  gram_of<CallistoRows>(job, gram);
+}
+
+double evaluate_cost(const GramJob& job) {
+  if (job.coefficients.model == 0) return cost_of<LambertGgxLanes>(job);
+  if (job.coefficients.model == 1) return cost_of<BurleyLanes>(job);
+  return cost_of<CallistoLanes>(job);
+}
+
+}  // namespace brdfit::simd::BRDFIT_SIMD_ISA

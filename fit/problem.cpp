@@ -1,0 +1,215 @@
+// Residual sums chained from coefficients to free parameters.
+#include "fit/problem.h"
+
+#include <ceres/jet.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "brdf/coefficients.h"
+
+namespace brdfit::simd {
+
+BRDFIT_DECLARE_SIMD(void accumulate_gram(const fit::GramJob&, fit::Gram&))
+BRDFIT_DECLARE_SIMD(double evaluate_cost(const fit::GramJob&))
+
+}  // namespace brdfit::simd
+
+namespace brdfit::fit {
+namespace {
+
+// Values and derivatives of one channel's coefficients.
+struct Coefficients {
+  std::vector<double> value;
+  Eigen::MatrixXd jacobian;  // coefficients x product form
+};
+
+template <int N>
+Coefficients collect(std::initializer_list<ceres::Jet<double, N>> jets) {
+  Coefficients result;
+  result.jacobian.resize(static_cast<Eigen::Index>(jets.size()), N);
+  Eigen::Index row = 0;
+  for (const auto& jet : jets) {
+    result.value.push_back(jet.a);
+    result.jacobian.row(row++) = jet.v.transpose();
+  }
+  return result;
+}
+
+template <int N>
+std::array<ceres::Jet<double, N>, N> variables(std::span<const double> q) {
+  std::array<ceres::Jet<double, N>, N> jets;
+  for (int k = 0; k < N; ++k) jets[static_cast<std::size_t>(k)] = {q[static_cast<std::size_t>(k)], k};
+  return jets;
+}
+
+// The coefficients of all channels of a model, in the order of fit/gram.h.
+std::array<Coefficients, 3> differentiate(const Material& material, std::span<const double> q) {
+  std::array<Coefficients, 3> result;
+  switch (material.model()) {
+    case Model::kLambertGgx: {
+      const auto jets = variables<kLambertGgxProductSize>(q);
+      const auto k = lambert_ggx_coefficients(jets.data());
+      for (std::size_t c = 0; c < 3; ++c) {
+        result[c] = collect<kLambertGgxProductSize>({k.shape.alpha, k.colour[c].rho, k.colour[c].f0});
+      }
+      break;
+    }
+    case Model::kBurley: {
+      const auto jets = variables<kBurleyProductSize>(q);
+      const auto k = burley_coefficients(jets.data(), static_cast<int>(material.effects().bits()));
+      for (std::size_t c = 0; c < 3; ++c) {
+        result[c] = collect<kBurleyProductSize>({k.shape.roughness, k.shape.subsurface, k.shape.alpha_x,
+                                                 k.shape.clearcoat_alpha, k.colour[c].rho, k.colour[c].sheen,
+                                                 k.colour[c].f0, k.colour[c].clearcoat});
+      }
+      break;
+    }
+    case Model::kCallisto: {
+      const auto jets = variables<kCallistoProductSize>(q);
+      const auto k = callisto_coefficients(jets.data());
+      for (std::size_t c = 0; c < 3; ++c) {
+        result[c] = collect<kCallistoProductSize>(
+            {k.shape.alpha_1, k.shape.alpha_2, k.shape.opacity, k.shape.fresnel_exponent,
+             k.shape.fresnel_tangent_exponent, k.shape.retro_exponent, k.shape.retro_tangent_exponent,
+             k.shape.specular_falloff, k.shape.terminator_length, k.colour[c].rho, k.colour[c].f0,
+             k.colour[c].fresnel, k.colour[c].retro, k.colour[c].terminator});
+      }
+      break;
+    }
+  }
+  return result;
+}
+
+// How many of a channel's coefficients belong to the shape.
+std::size_t shape_count(Model model) {
+  switch (model) {
+    case Model::kLambertGgx:
+      return 1;
+    case Model::kBurley:
+      return 4;
+    case Model::kCallisto:
+      return 9;
+  }
+  return 0;
+}
+
+// Values as vector code takes them; Burley's kernel has alpha twice.
+void fill(simd::Coefficients& to, Model model, const std::array<Coefficients, 3>& from) {
+  const std::size_t shape = shape_count(model);
+  const std::vector<double>& first = from[0].value;
+  if (model == Model::kBurley) {
+    std::ranges::copy(std::array{first[0], first[1], first[2], first[2], first[3]}, to.shape);
+  } else {
+    std::copy_n(first.begin(), shape, to.shape);
+  }
+  for (std::size_t c = 0; c < 3; ++c) {
+    std::copy(from[c].value.begin() + static_cast<std::ptrdiff_t>(shape), from[c].value.end(), to.colour[c]);
+  }
+}
+
+}  // namespace
+
+Targets make_targets(const SampleSet& samples, Loss loss) {
+  Targets targets;
+  const LossShape shape = shape_of(loss);
+  targets.robust_width = shape.robust_width;
+  targets.clipped_width = shape.clipped_width;
+  for (const double weight : samples.weight()) targets.sqrt_weight.push_back(std::sqrt(weight));
+  for (int c = 0; c < 3; ++c) {
+    for (std::size_t k = 0; k < samples.padded_size(); ++k) {
+      targets.value[c].push_back(loss_target(loss, samples.f(c)[k], samples.cos_i()[k]));
+      targets.clipped[c].push_back(loss_target(Loss::kSlice, samples.f(c)[k], samples.cos_i()[k]));
+    }
+  }
+  // The slice measure ends at 80 deg in both angles, where measurements become extrapolation.
+  const double lowest = std::cos(80.0 * std::numbers::pi / 180.0);
+  for (std::size_t k = 0; k < samples.padded_size(); ++k) {
+    const double h = samples.cos_h()[k];
+    const double d = samples.cos_d()[k];
+    const bool counts = h > lowest && d > lowest;
+    targets.clipped_share.push_back(counts ? shape.clipped_share / std::sqrt(h * d) : 0.0);
+  }
+  return targets;
+}
+
+GramFunction gram_function(simd::Isa isa) {
+  using namespace simd;
+  return BRDFIT_PICK(isa, accumulate_gram);
+}
+
+CostFunction cost_function(simd::Isa isa) {
+  using namespace simd;
+  return BRDFIT_PICK(isa, evaluate_cost);
+}
+
+Eigen::MatrixXd coefficient_jacobian(const Material& options, std::span<const double> q, int channel) {
+  return differentiate(options, q)[static_cast<std::size_t>(channel)].jacobian;
+}
+
+Problem::Problem(const Parametrisation& parametrisation, const SampleSet& samples, const Targets& targets,
+                 Loss loss)
+    : parametrisation_(parametrisation),
+      samples_(samples),
+      targets_(targets),
+      loss_(loss),
+      gram_function_(gram_function(simd::best_isa())),
+      cost_function_(cost_function(simd::best_isa())) {}
+
+GramJob Problem::job_at(std::span<const double> x) const {
+  const Material& material = parametrisation_.start;
+  GramJob job;
+  job.coefficients.model = static_cast<int>(material.model());
+  job.coefficients.masking = static_cast<int>(material.options().masking);
+  job.coefficients.burley_g = static_cast<int>(material.options().burley_g);
+  job.coefficients.diffuse = static_cast<int>(material.options().diffuse);
+  // Data are isotropic: the stretched lobe would only cost time.
+  job.coefficients.effects = static_cast<int>(material.effects().without(Effect::kAnisotropic).bits());
+  fill(job.coefficients, material.model(), differentiate(material, parametrisation_.product(x)));
+  job.geometry = samples_.geometry();
+  job.sqrt_weight = targets_.sqrt_weight.data();
+  for (std::size_t c = 0; c < 3; ++c) {
+    job.target[c] = targets_.value[c].data();
+    job.clipped_target[c] = targets_.clipped[c].data();
+  }
+  job.count = samples_.padded_size();
+  job.loss = static_cast<int>(loss_);
+  job.robust_width = targets_.robust_width;
+  job.clipped_width = targets_.clipped_width;
+  job.clipped_share = targets_.clipped_share.data();
+  return job;
+}
+
+double Problem::cost(std::span<const double> x) const {
+  return cost_function_(job_at(x));
+}
+
+Eigen::MatrixXd Problem::gram(std::span<const double> x, double* cost) const {
+  const auto n = static_cast<Eigen::Index>(parametrisation_.size());
+  Gram sums;
+  gram_function_(job_at(x), sums);
+  if (cost != nullptr) *cost = sums.cost;
+  const std::array<Coefficients, 3> channels =
+      differentiate(parametrisation_.start, parametrisation_.product(x));
+  Eigen::MatrixXd total = Eigen::MatrixXd::Zero(n + 1, n + 1);
+  for (std::size_t c = 0; c < 3; ++c) {
+    const Eigen::MatrixXd& by_product = channels[c].jacobian;
+    const Eigen::Index k = by_product.rows();
+    // Chain: coefficients by product form, product form by free numbers; the residual stays itself.
+    Eigen::MatrixXd chain = Eigen::MatrixXd::Zero(k + 1, n + 1);
+    for (std::size_t entry = 0; entry < parametrisation_.source.size(); ++entry) {
+      if (parametrisation_.source[entry] < 0) continue;
+      chain.col(parametrisation_.source[entry]).head(k) +=
+          parametrisation_.factor[entry] * by_product.col(static_cast<Eigen::Index>(entry));
+    }
+    chain(k, n) = 1.0;
+    const Eigen::Map<const Eigen::Matrix<double, kGramSide, kGramSide, Eigen::RowMajor>> upper(
+        sums.channel[c]);
+    const Eigen::MatrixXd full = upper.topLeftCorner(k + 1, k + 1).selfadjointView<Eigen::Upper>();
+    total.noalias() += chain.transpose() * full * chain;
+  }
+  return total;
+}
+
+}  // namespace brdfit::fit

@@ -1,0 +1,71 @@
+// The least-squares problem of a fit: a model's residuals over samples, reduced to a triangular factor.
+//
+// Ceres sees a residual vector of one entry more than there are parameters, r' = R_r, with the Jacobian J' =
+// R_J, where R^T R = [J r]^T [J r] over all samples: the same cost, gradient and Gauss-Newton matrix at a
+// fraction of the memory and time. The factor is exact wherever a cost and its derivatives are asked for
+// together; where the cost alone is, r' has the right length and no more, which is all that Ceres uses.
+#ifndef BRDFIT_FIT_PROBLEM_H_
+#define BRDFIT_FIT_PROBLEM_H_
+
+#include <Eigen/Core>
+#include <cstddef>
+#include <span>
+#include <vector>
+
+#include "brdf/simd/dispatch.h"
+#include "fit/gram.h"
+#include "fit/loss.h"
+#include "fit/parameters.h"
+#include "measured/sampling.h"
+
+namespace brdfit::fit {
+
+// Observations as residuals want them: transformed targets and roots of weights.
+struct Targets {
+  std::vector<double> sqrt_weight;
+  std::vector<double> value[3];
+  std::vector<double> clipped[3];     // min(f, 1)
+  std::vector<double> clipped_share;  // of that residual; see LossShape
+  double robust_width = 0.0;
+  double clipped_width = 0.0;
+};
+Targets make_targets(const SampleSet& samples, Loss loss);
+
+// Cost and derivatives over one set of samples. Holds references to all of its arguments.
+class Problem {
+ public:
+  Problem(const Parametrisation& parametrisation, const SampleSet& samples, const Targets& targets,
+          Loss loss);
+
+  std::size_t parameter_count() const { return parametrisation_.size(); }
+  const Parametrisation& parametrisation() const { return parametrisation_; }
+
+  // The cost at x: half of the weighted sum of squared residuals, large ones counted less where the loss says
+  // so.
+  double cost(std::span<const double> x) const;
+
+  // [J r]^T [J r] at x, of side parameter_count() + 1, the residual last; *cost (when not null) is the cost
+  // there.
+  Eigen::MatrixXd gram(std::span<const double> x, double* cost = nullptr) const;
+
+ private:
+  GramJob job_at(std::span<const double> x) const;
+
+  const Parametrisation& parametrisation_;
+  const SampleSet& samples_;
+  const Targets& targets_;
+  Loss loss_;
+  GramFunction gram_function_;
+  CostFunction cost_function_;
+};
+
+// The vector code behind a Problem, for tests and benchmarks of it.
+GramFunction gram_function(simd::Isa isa);
+CostFunction cost_function(simd::Isa isa);
+
+// d(coefficients of channel c)/dq, rows in the order of fit/gram.h, columns in that of the product form.
+Eigen::MatrixXd coefficient_jacobian(const Material& options, std::span<const double> q, int channel);
+
+}  // namespace brdfit::fit
+
+#endif  // BRDFIT_FIT_PROBLEM_H_
