@@ -97,7 +97,8 @@ std::vector<Candidate> explore(const Problem& problem, const Problem& wide, cons
       std::min<std::size_t>(kParents, static_cast<std::size_t>(options.starts) + seeds.size());
   const std::size_t kicks_a_round = parents * stages.size();
   const std::size_t starts = static_cast<std::size_t>(options.starts);
-  const int rounds = options.kick_rounds;
+  // With fewer stages there is less to kick; a kick of everything would be a start.
+  const int rounds = std::min(options.kick_rounds, static_cast<int>(stages.size()) - 1);
   const std::vector<std::vector<double>> points = make_starts(
       parametrisation, samples, options.starts + rounds * static_cast<int>(kicks_a_round), options.seed);
   std::vector<Candidate> candidates(seeds.size() + starts);

@@ -9,6 +9,8 @@
 #include <cmath>
 #include <stdexcept>
 
+#include "brdf/albedo.h"
+#include "brdf/kernel/fresnel.h"
 #include "brdf/models.h"
 #include "fit/explore.h"
 #include "fit/problem.h"
@@ -23,6 +25,21 @@ constexpr std::size_t kExplored = 2400;
 // How much wider the squares of a robust loss reach while searching.
 constexpr double kWidening = 3.0;
 constexpr std::size_t kRefined = 2;  // starts that are refined on all samples
+
+constexpr double kVisibleMetallic = 0.005;
+// A dielectric whose loss is higher by less than this share is kept instead of a metal.
+constexpr double kSameLoss = 0.01;
+// The least f0 of bare metals in their brightest channel, with a margin (Akenine-Moeller et al. 2018,
+// Real-Time Rendering, table 9.2: titanium 0.54).
+constexpr double kMetalF0 = 0.45;
+// A metal whose loss is less than a third of the dielectric's has been told apart by the measurement.
+constexpr double kDecidedExcess = 2.0;
+// Iterations after which candidates are compared; only the best is carried to its minimum.
+constexpr int kBriefIterations = 12;
+constexpr int kDielectricIterations = 30;
+
+// A directional albedo above this is more than the quadrature's error above 1.
+constexpr double kFurnaceBound = 1.01;
 
 class Stopwatch {
  public:
@@ -46,6 +63,15 @@ Material start_material(const FitOptions& options) {
   Material material = options.init ? *options.init : Material(options.model);
   material.options() = options.material_options;
   return material;
+}
+
+double largest_f0(const Material& material) {
+  double largest = 0.0;
+  for (const double base : material.colour("base_color")) {
+    largest = std::max(largest,
+                       kernel::metallic_f0(base, material.number("metallic"), material.number("specular")));
+  }
+  return largest;
 }
 
 SampleSet draw_samples(const MeasuredTable& table, const FitOptions& options, const Material& material) {
@@ -93,6 +119,13 @@ struct Data {
   }
 };
 
+// A candidate, and what was found about its metallic.
+struct Decided {
+  Candidate candidate;
+  std::string note;                 // a sentence for the result; empty where there is nothing to say
+  bool metallic_undecided = false;  // metallic 0 fits as well
+};
+
 class Fitter {
  public:
   Fitter(const MeasuredTable& table, const FitOptions& options)
@@ -125,10 +158,16 @@ class Fitter {
   }
 
  private:
+  // More parameters have more wrong valleys.
+  int start_count() const {
+    if (options_.starts > 0) return options_.starts;
+    return std::clamp(static_cast<int>(parametrisation_.size()) / 2 + 1, 4, 12);
+  }
+
   void explore_starts() {
     std::vector<std::vector<double>> seeds;
     if (options_.init) seeds.push_back(parametrisation_.from_material(*options_.init));
-    candidates_ = explore(on_part_, on_part_wide_, data_.part, seeds, {options_.starts, options_.seed});
+    candidates_ = explore(on_part_, on_part_wide_, data_.part, seeds, {start_count(), options_.seed});
     result_.starts = static_cast<int>(candidates_.size());
     for (const Candidate& candidate : candidates_) result_.evaluations += candidate.solution.evaluations;
   }
@@ -137,17 +176,92 @@ class Fitter {
     const double best_cost = candidates_.front().solution.cost;
     result_.starts_near_best = static_cast<int>(std::ranges::count_if(
         candidates_, [&](const Candidate& c) { return c.solution.cost <= 1.05 * best_cost; }));
-    std::vector<Candidate> refined = distinct(candidates_, kRefined);
+    std::vector<Decided> refined;
+    for (Candidate& candidate : distinct(candidates_, kRefined))
+      refined.push_back(decide_metallic(candidate));
+    SolveOptions brief;
+    brief.max_iterations = refined.size() > 1 ? kBriefIterations : SolveOptions().max_iterations;
     tbb::parallel_for(std::size_t{0}, refined.size(), [&](std::size_t k) {
-      refined[k].solution = solve_pinning(on_all_, refined[k].solution.x, refined[k].box, {});
+      Candidate& candidate = refined[k].candidate;
+      candidate.solution = solve_pinning(on_all_, candidate.solution.x, candidate.box, brief);
     });
-    for (const Candidate& candidate : refined) result_.evaluations += candidate.solution.evaluations;
-    published_ = *std::ranges::min_element(refined, {}, [](const Candidate& c) { return c.solution.cost; });
+    for (const Decided& decided : refined) result_.evaluations += decided.candidate.solution.evaluations;
+    published_ =
+        *std::ranges::min_element(refined, {}, [](const Decided& d) { return d.candidate.solution.cost; });
+    Solution& solution = published_.candidate.solution;
+    if (solution.converged) return;
+    const int iterations = solution.iterations;
+    solution = solve_pinning(on_all_, solution.x, published_.candidate.box, {});
+    solution.iterations += iterations;
+    result_.evaluations += solution.evaluations;
+  }
+
+  // Metallic splits the base colour between diffuse and specular, and a low metallic does what specular does.
+  // So a candidate that moved it is searched again without: if that is as good, the simpler material is kept.
+  // If it is not, but f0 is below that of any bare metal, the fit says that metallic stands in for something
+  // else.
+  Decided decide_metallic(const Candidate& metal) {
+    Decided decided = {metal, "", false};
+    const std::size_t at = index_of("metallic");
+    if (at == parametrisation_.size() || metal.solution.x[at] < kVisibleMetallic) return decided;
+    const double metallic = metal.solution.x[at];
+    const Material with = parametrisation_.to_material(metal.solution.x);
+    Candidate without = metal;
+    without.box.moves[at] = false;
+    SolveOptions search;
+    search.max_iterations = kDielectricIterations;
+    without.solution = solve_pinning(on_part_, as_dielectric(with, metallic), without.box, search);
+    result_.evaluations += without.solution.evaluations;
+    const double excess = without.solution.cost / std::max(metal.solution.cost, 1e-300) - 1.0;
+    const double f0 = largest_f0(with);
+    if (excess <= kSameLoss) {
+      decided = {
+          without,
+          fmt::format("metallic and specular cannot be told apart: metallic 0 fits as well as {:.2f} (loss "
+                      "{:+.1f}%) and was kept",
+                      metallic, 100.0 * excess),
+          true};
+    } else if (f0 < kMetalF0 && excess <= kDecidedExcess) {
+      decided.note = fmt::format(
+          "metallic and specular cannot be told apart: f0 is {:.2f} at most, below that of bare metals "
+          "(about 0.5), so "
+          "metallic {:.2f} stands in for something else; without it the loss is {:.1f}% higher (--fix "
+          "metallic=0)",
+          f0, metallic, 100.0 * excess);
+    }
+    return decided;
+  }
+
+  std::size_t index_of(std::string_view name) const {
+    const auto found = std::ranges::find(parametrisation_.free, name, &FreeParameter::name);
+    return static_cast<std::size_t>(found - parametrisation_.free.begin());
+  }
+
+  // The same diffuse albedo and the same mean f0 with metallic 0, as far as ranges allow.
+  std::vector<double> as_dielectric(const Material& material, double metallic) const {
+    Material copy = material;
+    Rgb base = material.colour("base_color");
+    double mean_f0 = 0.0;
+    for (double& channel : base) {
+      mean_f0 += kernel::metallic_f0(channel, metallic, material.number("specular")) / 3.0;
+      channel *= 1.0 - metallic;
+    }
+    copy.set("base_color", base);
+    copy.set("metallic", 0.0);
+    copy.set("specular", std::min(mean_f0 / 0.08, 1.0));
+    return parametrisation_.from_material(copy);
   }
 
   void look_at_evidence() {
-    const Solution& solution = published_.solution;
-    const Identifiability identifiability = identify(parametrisation_, solution.x, on_all_.gram(solution.x));
+    const Solution& solution = published_.candidate.solution;
+    if (!published_.note.empty()) result_.notes.push_back(published_.note);
+    Identifiability identifiability = identify(parametrisation_, solution.x, on_all_.gram(solution.x));
+    if (published_.metallic_undecided) {
+      for (const char* name : {"metallic", "specular"}) {
+        const std::size_t k = index_of(name);
+        if (k < parametrisation_.size()) identifiability.status[k] = Status::kUnidentifiable;
+      }
+    }
     result_.parameters = public_states(parametrisation_, solution.x, identifiability);
     result_.correlated = identifiability.correlated;
     result_.material = parametrisation_.to_material(solution.x);
@@ -155,6 +269,36 @@ class Fitter {
     result_.iterations = solution.iterations;
     result_.converged = solution.converged;
     result_.termination = solution.termination;
+    result_.largest_albedo = largest_directional_albedo(result_.material);
+    add_notes();
+  }
+
+  void add_notes() {
+    std::string at_bounds;
+    for (const ParameterState& state : result_.parameters) {
+      if (state.status != Status::kAtLowerBound && state.status != Status::kAtUpperBound) continue;
+      at_bounds +=
+          (at_bounds.empty() ? "" : ", ") + state.name + " (" + std::string(name_of(state.status)) + ")";
+    }
+    if (!at_bounds.empty()) result_.notes.push_back("at the end of its range: " + at_bounds);
+    if (!result_.converged) {
+      result_.notes.push_back(
+          fmt::format("the solver stopped before it converged ({} iterations)", result_.iterations));
+    }
+    if (result_.largest_albedo > kFurnaceBound) {
+      result_.notes.push_back(fmt::format(
+          "the material gives back more light than it gets: its directional albedo reaches {:.2f}",
+          result_.largest_albedo));
+    }
+    if (options_.on == FitOn::kSlices) {
+      result_.notes.push_back(
+          "fitted on slices alone: the errors on the whole table tell what that is worth");
+    }
+    if (options_.max_theta_deg < 90.0) {
+      result_.notes.push_back(
+          fmt::format("directions further than {:g} deg from the normal were left out of fit and errors",
+                      options_.max_theta_deg));
+    }
   }
 
   const MeasuredTable& table_;
@@ -166,7 +310,7 @@ class Fitter {
   Problem on_part_wide_;
   Problem on_all_;
   std::vector<Candidate> candidates_;
-  Candidate published_;
+  Decided published_;
   FitResult result_;
 };
 
@@ -188,7 +332,7 @@ bool FitOptions::is_valid(std::string* why) const {
     if (why != nullptr) *why = text;
     return false;
   };
-  if (starts < 1) return fail(fmt::format("starts is {}; at least 1 is needed", starts));
+  if (starts < 0) return fail(fmt::format("starts is {}; 0 or more is needed", starts));
   if (samples < 1) return fail("samples is 0; at least 1 is needed");
   if (!(max_theta_deg > 0.0 && max_theta_deg <= 90.0)) {
     return fail(fmt::format("max theta is {} deg, not in (0, 90]", max_theta_deg));
@@ -200,6 +344,11 @@ bool FitOptions::is_valid(std::string* why) const {
   if (init && init->model() != model) {
     return fail(
         fmt::format("the material to start from is {}, not {}", title_of(init->model()), title_of(model)));
+  }
+  try {
+    make_parametrisation(start_material(*this), {tier, effects_to_fit(*this), fixed});
+  } catch (const std::invalid_argument& error) {
+    return fail(error.what());
   }
   return true;
 }

@@ -39,10 +39,11 @@ struct FitOptions {
   double max_theta_deg = 90.0;
   std::size_t samples = 20000;  // cells of the table; kAllSamples for every one
   Loss loss = Loss::kLogRatio;
-  int starts = 12;
+  int starts = 0;  // points from which the search begins; 0: 4 to 12, by the number of free parameters
   std::uint64_t seed = 1;
 
-  // Whether the options make sense together; if not, *why (when not null) says what does not.
+  // Whether the options make sense together and for the model; if not, *why (when not null) says what does
+  // not.
   bool is_valid(std::string* why) const;
 };
 
@@ -71,6 +72,8 @@ struct FitResult {
   std::vector<CorrelatedPair> correlated;
   std::vector<std::string> notes;  // what a reader of the result must know, in sentences
   Evaluation evaluation;
+  double largest_albedo =
+      0.0;  // directional, over channels and angles up to 80 deg; above 1 it is in the notes
   FitTimings timings;
 };
 

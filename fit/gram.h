@@ -22,9 +22,9 @@ inline constexpr int kCallistoCoefficients = 14;
 
 // With r = transform(f cos_i) - target[c][k] and u = min(f, 1) - clipped_target[c][k], sample k of channel c
 // costs
-//   weight[k] (robust(r) + clipped_share[k] u^2 / 2),
-// where robust(r) is r^2 / 2 if robust_width is 0, else the pseudo-Huber d^2 (sqrt(1 + (r/d)^2) - 1) with
-// d = robust_width: squares below d, absolute values above.
+//   weight[k] (robust(r) + clipped_share[k] robust(u)),
+// where robust(r) is r^2 / 2 if its width (robust_width for r, clipped_width for u) is 0, else the
+// pseudo-Huber d^2 (sqrt(1 + (r/d)^2) - 1) with d the width: squares below d, absolute values above.
 struct GramJob {
   simd::Coefficients coefficients;
   simd::GeometryColumns geometry;

@@ -1,8 +1,9 @@
 // Vectorised Gram matrices. Compiled once for every instruction set.
 //
-// Shapes are differentiated by running the kernels on dual numbers in the few parameters that each term
-// depends on; the combination of terms to a channel is differentiated by hand, as it is linear in nearly
-// everything.
+// Shapes are differentiated by running the kernels on dual numbers. A dual number has fewer slots for
+// derivatives than a shape has parameters: no term depends on more than a few, and parameters that never meet
+// in a term share a slot. The combination of terms to a channel is differentiated by hand, as it is linear in
+// nearly everything.
 #include "fit/gram.h"
 
 #include "brdf/simd/dual.h"
@@ -49,23 +50,24 @@ struct LambertGgxRows : LambertGgxLanes {
 struct BurleyRows : BurleyLanes {
   static constexpr int coefficients = fit::kBurleyCoefficients;
   using BurleyLanes::BurleyLanes;
-  kernel::BurleyTerms<D<4>> at;
+  kernel::BurleyTerms<D<2>> at;
   kernel::BurleyTerms<V> value;
 
+  // Slots: diffuse (roughness, subsurface), specular (roughness, alpha), clearcoat (-, clearcoat_alpha).
   HWY_INLINE void prepare(const kernel::Geometry<V>& g, const kernel::GeometryLogs<V>&) {
-    const kernel::BurleyShape<D<4>> s = {D<4>(shape.roughness, 0), D<4>(shape.subsurface, 1),
-                                         D<4>(shape.alpha_x, 2), D<4>(shape.alpha_y, 2),
-                                         D<4>(shape.clearcoat_alpha, 3)};
+    const kernel::BurleyShape<D<2>> s = {D<2>(shape.roughness, 0), D<2>(shape.subsurface, 1),
+                                         D<2>(shape.alpha_x, 1), D<2>(shape.alpha_y, 1),
+                                         D<2>(shape.clearcoat_alpha, 1)};
     at = kernel::burley_terms(s, g, burley_g, effects);
     value = {at.diffuse.a, at.sheen.a, at.falloff.a, at.specular.a, at.clearcoat.a};
   }
   HWY_INLINE void row(int c, Row& r) const {
     const V f = kernel::fresnel(colour[c].f0, value.falloff);
     r.y = combine(c, value);
-    for (int k = 0; k < 4; ++k) {
-      r.dy[k] =
-          colour[c].rho * at.diffuse.d[k] + f * at.specular.d[k] + colour[c].clearcoat * at.clearcoat.d[k];
-    }
+    r.dy[0] = colour[c].rho * at.diffuse.d[0] + f * at.specular.d[0];
+    r.dy[1] = colour[c].rho * at.diffuse.d[1];
+    r.dy[2] = f * at.specular.d[1];
+    r.dy[3] = colour[c].clearcoat * at.clearcoat.d[1];
     r.dy[4] = value.diffuse;
     r.dy[5] = value.sheen;
     r.dy[6] = (V(1.0) - value.falloff) * value.specular;
@@ -76,45 +78,24 @@ struct BurleyRows : BurleyLanes {
 struct CallistoRows : CallistoLanes {
   static constexpr int coefficients = fit::kCallistoCoefficients;
   using CallistoLanes::CallistoLanes;
+  kernel::CallistoTerms<D<3>> at;
   kernel::CallistoTerms<V> value;
-  V d_diffuse_alpha, d_specular_alpha_1, d_specular_alpha_2, d_specular_opacity, d_falloff, d_step;
-  V d_fresnel_exponent, d_fresnel_tangent, d_retro_exponent, d_retro_tangent;
 
-  HWY_INLINE bool has(int effect) const { return (effects & effect) != 0; }
-
+  // Slots: diffuse (alpha_1), specular (alpha_1, alpha_2, opacity), fresnel and retro (exponent, tangent
+  // exponent), falloff (specular_falloff), terminator_step (terminator_length).
   HWY_INLINE void prepare(const kernel::Geometry<V>& g, const kernel::GeometryLogs<V>& logs) {
-    value = terms(g, logs);
-    prepare_specular(g);
-    d_diffuse_alpha = kernel::diffuse_base_cos(D<1>(shape.alpha_1, 0), g, diffuse).d[0];
-    d_falloff = V(0.0);
-    if (has(BRDF_EFFECT_SPECULAR_FRESNEL_FALLOFF)) {
-      d_falloff = kernel::callisto_specular_falloff(D<1>(shape.specular_falloff, 0), g.one_minus_cos_d,
-                                                    logs.one_minus_cos_d)
-                      .d[0];
-    }
-    d_fresnel_exponent = value.fresnel * logs.one_minus_cos_d;
-    d_fresnel_tangent = value.fresnel * logs.cos_h;
-    d_retro_exponent = value.retro * logs.one_minus_cos_h;
-    d_retro_tangent = value.retro * logs.cos_d;
-    d_step = V(0.0);
-    if (has(BRDF_EFFECT_SMOOTH_TERMINATOR)) {
-      d_step =
-          kernel::smoothstep_from_zero(value.terminator * D<1>(shape.terminator_length, 0), g.cos_i).d[0];
-    }
-  }
-
-  HWY_INLINE void prepare_specular(const kernel::Geometry<V>& g) {
-    const D<1> lobe_1 = kernel::ggx_lobe(D<1>(shape.alpha_1, 0), g, masking);
-    V share_1 = V(1.0);
-    d_specular_alpha_2 = V(0.0);
-    d_specular_opacity = V(0.0);
-    if (has(BRDF_EFFECT_DUAL_SPECULAR)) {
-      const D<1> lobe_2 = kernel::ggx_lobe(D<1>(shape.alpha_2, 0), g, masking);
-      share_1 = V(1.0) - shape.opacity;
-      d_specular_alpha_2 = shape.opacity * lobe_2.d[0] * g.cos_i;
-      d_specular_opacity = (lobe_2.a - lobe_1.a) * g.cos_i;
-    }
-    d_specular_alpha_1 = share_1 * lobe_1.d[0] * g.cos_i;
+    const kernel::CallistoShape<D<3>> s = {D<3>(shape.alpha_1, 0),
+                                           D<3>(shape.alpha_2, 1),
+                                           D<3>(shape.opacity, 2),
+                                           D<3>(shape.fresnel_exponent, 0),
+                                           D<3>(shape.fresnel_tangent_exponent, 1),
+                                           D<3>(shape.retro_exponent, 0),
+                                           D<3>(shape.retro_tangent_exponent, 1),
+                                           D<3>(shape.specular_falloff, 0),
+                                           D<3>(shape.terminator_length, 0)};
+    at = kernel::callisto_terms(s, g, logs, masking, diffuse, effects);
+    value = {at.diffuse.a,  at.fresnel.a,    at.retro.a,          at.falloff.a,
+             at.specular.a, at.terminator.a, at.terminator_step.a};
   }
 
   // y = sum c2 with sum = gain_f gain_r rho diffuse + f specular, as callisto_combine writes it.
@@ -129,16 +110,18 @@ struct CallistoRows : CallistoLanes {
     const V by_specular = f * c2;
     const V by_gain_f = gain_r * k.rho * value.diffuse * c2;
     const V by_gain_r = gain_f * k.rho * value.diffuse * c2;
+    const V by_fresnel = by_gain_f * (k.fresnel - one);
+    const V by_retro = by_gain_r * (k.retro - one);
     r.y = combine(c, value);
-    r.dy[0] = by_specular * d_specular_alpha_1 + gain_f * gain_r * k.rho * d_diffuse_alpha * c2;
-    r.dy[1] = by_specular * d_specular_alpha_2;
-    r.dy[2] = by_specular * d_specular_opacity;
-    r.dy[3] = by_gain_f * (k.fresnel - one) * d_fresnel_exponent;
-    r.dy[4] = by_gain_f * (k.fresnel - one) * d_fresnel_tangent;
-    r.dy[5] = by_gain_r * (k.retro - one) * d_retro_exponent;
-    r.dy[6] = by_gain_r * (k.retro - one) * d_retro_tangent;
-    r.dy[7] = (one - k.f0) * d_falloff * value.specular * c2;
-    r.dy[8] = sum * value.terminator * k.terminator * d_step;
+    r.dy[0] = by_specular * at.specular.d[0] + gain_f * gain_r * k.rho * at.diffuse.d[0] * c2;
+    r.dy[1] = by_specular * at.specular.d[1];
+    r.dy[2] = by_specular * at.specular.d[2];
+    r.dy[3] = by_fresnel * at.fresnel.d[0];
+    r.dy[4] = by_fresnel * at.fresnel.d[1];
+    r.dy[5] = by_retro * at.retro.d[0];
+    r.dy[6] = by_retro * at.retro.d[1];
+    r.dy[7] = (one - k.f0) * at.falloff.d[0] * value.specular * c2;
+    r.dy[8] = sum * value.terminator * k.terminator * at.terminator_step.d[0];
     r.dy[9] = gain_f * gain_r * value.diffuse * c2;
     r.dy[10] = (one - value.falloff) * value.specular * c2;
     r.dy[11] = by_gain_f * value.fresnel;

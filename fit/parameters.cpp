@@ -137,7 +137,8 @@ void set_product(Material& material, const std::string& intensity, const std::st
   material.set(intensity, *largest);
   Rgb share = {1.0, 1.0, 1.0};
   if (*largest != 0.0) {
-    for (std::size_t c = 0; c < 3; ++c) share[c] = std::clamp(product[c] / *largest, 0.0, 1.0);
+    // Adding 0 turns the -0 of a negative intensity into 0.
+    for (std::size_t c = 0; c < 3; ++c) share[c] = std::clamp(product[c] / *largest + 0.0, 0.0, 1.0);
   }
   material.set(tint, share);
 }

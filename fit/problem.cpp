@@ -2,10 +2,13 @@
 #include "fit/problem.h"
 
 #include <ceres/jet.h>
+#include <tbb/parallel_for.h>
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numbers>
+#include <numeric>
 
 #include "brdf/coefficients.h"
 
@@ -109,6 +112,36 @@ void fill(simd::Coefficients& to, Model model, const std::array<Coefficients, 3>
   }
 }
 
+// Long enough for a thread to be worth its start.
+constexpr std::size_t kChunk = 64 * simd::kBlock;
+
+std::size_t chunk_count(const GramJob& job) {
+  return (job.count + kChunk - 1) / kChunk;
+}
+
+GramJob chunk_of(const GramJob& job, std::size_t k) {
+  const std::size_t first = k * kChunk;
+  GramJob chunk = job;
+  chunk.count = std::min(kChunk, job.count - first);
+  for (const double** column :
+       {&chunk.geometry.cos_i, &chunk.geometry.cos_o, &chunk.geometry.sin_h, &chunk.geometry.cos_h,
+        &chunk.geometry.cos_d, &chunk.geometry.one_minus_cos_h, &chunk.geometry.one_minus_cos_d,
+        &chunk.geometry.log_cos_h, &chunk.geometry.log_cos_d, &chunk.geometry.log_one_minus_cos_h,
+        &chunk.geometry.log_one_minus_cos_d, &chunk.sqrt_weight, &chunk.clipped_share, &chunk.target[0],
+        &chunk.target[1], &chunk.target[2], &chunk.clipped_target[0], &chunk.clipped_target[1],
+        &chunk.clipped_target[2]}) {
+    *column += first;
+  }
+  return chunk;
+}
+
+void add(Gram& to, const Gram& from) {
+  for (std::size_t c = 0; c < 3; ++c) {
+    for (std::size_t k = 0; k < std::size(to.channel[c]); ++k) to.channel[c][k] += from.channel[c][k];
+  }
+  to.cost += from.cost;
+}
+
 }  // namespace
 
 Targets make_targets(const SampleSet& samples, Loss loss) {
@@ -181,14 +214,23 @@ GramJob Problem::job_at(std::span<const double> x) const {
   return job;
 }
 
+// Chunks of a fixed size are summed apart and added in order, so that results do not depend on threads.
 double Problem::cost(std::span<const double> x) const {
-  return cost_function_(job_at(x));
+  const GramJob job = job_at(x);
+  std::vector<double> costs(chunk_count(job));
+  tbb::parallel_for(std::size_t{0}, costs.size(),
+                    [&](std::size_t k) { costs[k] = cost_function_(chunk_of(job, k)); });
+  return std::accumulate(costs.begin(), costs.end(), 0.0);
 }
 
 Eigen::MatrixXd Problem::gram(std::span<const double> x, double* cost) const {
   const auto n = static_cast<Eigen::Index>(parametrisation_.size());
-  Gram sums;
-  gram_function_(job_at(x), sums);
+  const GramJob job = job_at(x);
+  std::vector<Gram> chunks(chunk_count(job));
+  tbb::parallel_for(std::size_t{0}, chunks.size(),
+                    [&](std::size_t k) { gram_function_(chunk_of(job, k), chunks[k]); });
+  Gram& sums = chunks.front();
+  for (std::size_t k = 1; k < chunks.size(); ++k) add(sums, chunks[k]);
   if (cost != nullptr) *cost = sums.cost;
   const std::array<Coefficients, 3> channels =
       differentiate(parametrisation_.start, parametrisation_.product(x));

@@ -22,7 +22,7 @@ struct Solution {
 struct SolveOptions {
   int max_iterations = 200;
   // Ceres stops when a step changes the cost by less than this share of it.
-  double function_tolerance = 1e-8;
+  double function_tolerance = 1e-6;
   double gradient_tolerance = 1e-14;
   double parameter_tolerance = 1e-12;
   double initial_trust_region_radius = 1e4;

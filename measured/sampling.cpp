@@ -1,26 +1,17 @@
 // Stratified samples and slices as observations.
 #include "measured/sampling.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
 
-#include "brdf/kernel/math.h"
 #include "measured/slice.h"
 
 namespace brdfit {
 namespace {
-
-double lowest_cosine(const SamplingOptions& options) {
-  // Just above the horizon counts as below it: f has no meaning there.
-  const double limit = std::cos(std::min(options.max_theta_deg, 90.0) * std::numbers::pi / 180.0);
-  return std::max(limit - 1e-12, 1e-9);
-}
-
-bool is_observed(const CellGeometry& geometry, double min_cosine) {
-  return geometry.cos_i >= min_cosine && geometry.cos_o >= min_cosine;
-}
 
 void add_cell(SampleSet& samples, const CellGeometry& geometry, const Rgb& f, double weight,
               bool both_orders) {
@@ -34,52 +25,86 @@ void add_cell(SampleSet& samples, const CellGeometry& geometry, const Rgb& f, do
   samples.add(swapped, f, 0.5 * weight);
 }
 
-// Sines and cosines of every stored angle, so that walking a table needs no trigonometry.
-struct GridAngles {
-  std::vector<double> cos_h, sin_h, cos_d, sin_d, cos_phi;
-
-  explicit GridAngles(const Grid& grid) {
-    for (int i = 0; i < grid.n_theta_h; ++i) {
-      cos_h.push_back(std::cos(grid.theta_h_rad(i)));
-      sin_h.push_back(std::sin(grid.theta_h_rad(i)));
-    }
-    for (int i = 0; i < grid.n_theta_d; ++i) {
-      cos_d.push_back(std::cos(grid.theta_d_rad(i)));
-      sin_d.push_back(std::sin(grid.theta_d_rad(i)));
-    }
-    for (int i = 0; i < grid.n_phi_d; ++i) cos_phi.push_back(std::cos(grid.phi_d_rad(i)));
-  }
-};
-
 // Observed cells in an order that keeps neighbours together: theta_h rows, bands of theta_d, then phi_d.
-std::vector<std::size_t> ordered_cells(const MeasuredTable& table, std::size_t cell_count,
-                                       double min_cosine) {
-  const Grid& grid = table.grid();
-  const GridAngles angles(grid);
-  const double per_stratum = static_cast<double>(table.valid_count()) / static_cast<double>(cell_count);
-  // A stratum is about twice as long in phi_d as in theta_d, as the grid has twice the cells there.
-  const int band = std::clamp(static_cast<int>(std::lround(std::sqrt(per_stratum / 2.0))), 1, grid.n_theta_d);
-  std::vector<std::size_t> cells;
-  cells.reserve(table.valid_count());
-  for (int i_h = 0; i_h < grid.n_theta_h; ++i_h) {
-    const auto h = static_cast<std::size_t>(i_h);
-    for (int first_d = 0; first_d < grid.n_theta_d; first_d += band) {
-      const int end_d = std::min(first_d + band, grid.n_theta_d);
-      for (int i_p = 0; i_p < grid.n_phi_d; ++i_p) {
-        for (int i_d = first_d; i_d < end_d; ++i_d) {
-          const std::size_t cell = grid.index(i_h, i_d, i_p);
-          if (!table.is_valid(cell)) continue;
-          const auto d = static_cast<std::size_t>(i_d);
-          const double along = angles.cos_d[d] * angles.cos_h[h];
-          const double across =
-              angles.sin_d[d] * angles.sin_h[h] * angles.cos_phi[static_cast<std::size_t>(i_p)];
-          if (along - std::abs(across) < min_cosine) continue;
-          cells.push_back(cell);
-        }
+class OrderedCells {
+ public:
+  // band: how many theta_d rows are taken together.
+  OrderedCells(const MeasuredTable& table, const GridGeometry& geometry, double min_cosine, int band)
+      : table_(table), geometry_(geometry), min_cosine_(min_cosine), band_(band) {
+    const auto n_theta_h = static_cast<std::size_t>(table.grid().n_theta_h);
+    rows_.resize(n_theta_h);
+    tbb::parallel_for(std::size_t{0}, n_theta_h, [&](std::size_t row) { rows_[row] = ordered_row(row); });
+    for (const Row& row : rows_) ends_.push_back((ends_.empty() ? 0 : ends_.back()) + row.size());
+  }
+
+  std::size_t size() const { return ends_.back(); }
+
+  struct Cell {
+    int i_theta_h, i_theta_d, i_phi_d;
+  };
+  // The cells at these places of the order, which ascend.
+  std::vector<Cell> at(const std::vector<std::size_t>& places) const {
+    const auto n_phi_d = static_cast<std::uint32_t>(table_.grid().n_phi_d);
+    std::vector<Cell> result;
+    result.reserve(places.size());
+    std::size_t row = 0;
+    for (const std::size_t k : places) {
+      while (k >= ends_[row]) ++row;
+      const std::uint32_t cell = rows_[row][k - (ends_[row] - rows_[row].size())];
+      result.push_back(
+          {static_cast<int>(row), static_cast<int>(cell / n_phi_d), static_cast<int>(cell % n_phi_d)});
+    }
+    return result;
+  }
+
+ private:
+  using Row = std::vector<std::uint32_t>;  // indices of cells, counted from the row's first
+
+  Row ordered_row(std::size_t i_theta_h) const {
+    const Grid& grid = table_.grid();
+    const auto i_h = static_cast<int>(i_theta_h);
+    Row row(static_cast<std::size_t>(grid.n_theta_d) * static_cast<std::size_t>(grid.n_phi_d));
+    std::size_t count = 0;
+    for (int first_d = 0; first_d < grid.n_theta_d; first_d += band_) {
+      append_band(i_h, first_d, std::min(first_d + band_, grid.n_theta_d), row, count);
+    }
+    row.resize(count);
+    row.shrink_to_fit();
+    return row;
+  }
+
+  void append_band(int i_h, int first_d, int end_d, Row& row, std::size_t& count) const {
+    const Grid& grid = table_.grid();
+    const std::size_t row_start = grid.index(i_h, 0, 0);
+    std::vector<PhiRun> runs;
+    for (int i_d = first_d; i_d < end_d; ++i_d) runs.push_back(geometry_.observed(i_h, i_d, min_cosine_));
+    for (int i_p = 0; i_p < grid.n_phi_d; ++i_p) {
+      for (int i_d = first_d; i_d < end_d; ++i_d) {
+        const PhiRun& run = runs[static_cast<std::size_t>(i_d - first_d)];
+        const std::size_t cell = grid.index(0, i_d, i_p);
+        // Written first and kept if it counts: a branch here would be mispredicted often.
+        row[count] = static_cast<std::uint32_t>(cell);
+        count += std::size_t{i_p >= run.first} & std::size_t{i_p < run.end} &
+                 std::size_t{table_.is_valid(row_start + cell)};
       }
     }
   }
-  return cells;
+
+  const MeasuredTable& table_;
+  const GridGeometry& geometry_;
+  double min_cosine_;
+  int band_;
+  std::vector<Row> rows_;
+  std::vector<std::size_t> ends_;  // of each row, counting all cells before it
+};
+
+// How many theta_d rows a stratum spans: it is about twice as long in phi_d, as the grid has twice the cells
+// there.
+int rows_per_stratum(const MeasuredTable& table, std::size_t cell_count) {
+  const double per_stratum = static_cast<double>(table.valid_count()) /
+                             static_cast<double>(std::clamp<std::size_t>(
+                                 cell_count, 1, std::max<std::size_t>(table.valid_count(), 1)));
+  return std::clamp(static_cast<int>(std::lround(std::sqrt(per_stratum / 2.0))), 1, table.grid().n_theta_d);
 }
 
 // How much a theta_h row counts in a slice, in pixels of the slice measures: the mean of how many of their
@@ -99,17 +124,6 @@ std::vector<double> slice_row_weights(const Grid& grid) {
 
 }  // namespace
 
-CellGeometry cell_geometry(const HalfDiff& angles) {
-  const double sin_h = std::sin(angles.theta_h_rad);
-  const double cos_h = std::cos(angles.theta_h_rad);
-  const double cos_d = std::cos(angles.theta_d_rad);
-  const double along = cos_d * cos_h;
-  const double across = std::sin(angles.theta_d_rad) * std::cos(angles.phi_d_rad) * sin_h;
-  const double half_h = std::sin(0.5 * angles.theta_h_rad);
-  const double half_d = std::sin(0.5 * angles.theta_d_rad);
-  return {along - across, along + across, sin_h, cos_h, cos_d, 2.0 * half_h * half_h, 2.0 * half_d * half_d};
-}
-
 void SampleSet::add(const CellGeometry& geometry, const Rgb& f, double weight) {
   cos_i_.push_back(geometry.cos_i);
   cos_o_.push_back(geometry.cos_o);
@@ -118,8 +132,21 @@ void SampleSet::add(const CellGeometry& geometry, const Rgb& f, double weight) {
   cos_d_.push_back(geometry.cos_d);
   one_minus_cos_h_.push_back(geometry.one_minus_cos_h);
   one_minus_cos_d_.push_back(geometry.one_minus_cos_d);
+  log_cos_h_.push_back(geometry.log_cos_h);
+  log_cos_d_.push_back(geometry.log_cos_d);
+  log_one_minus_cos_h_.push_back(geometry.log_one_minus_cos_h);
+  log_one_minus_cos_d_.push_back(geometry.log_one_minus_cos_d);
   for (std::size_t c = 0; c < 3; ++c) f_[c].push_back(f[c]);
   weight_.push_back(weight);
+}
+
+void SampleSet::reserve(std::size_t count) {
+  const std::size_t padded = (count + simd::kBlock - 1) / simd::kBlock * simd::kBlock;
+  for (std::vector<double>* column :
+       {&cos_i_, &cos_o_, &sin_h_, &cos_h_, &cos_d_, &one_minus_cos_h_, &one_minus_cos_d_, &log_cos_h_,
+        &log_cos_d_, &log_one_minus_cos_h_, &log_one_minus_cos_d_, &f_[0], &f_[1], &f_[2], &weight_}) {
+    column->reserve(padded);
+  }
 }
 
 void SampleSet::finish() {
@@ -128,16 +155,8 @@ void SampleSet::finish() {
   for (const double w : weight_) sum += w;
   for (double& w : weight_) w /= sum;
   // Padding looks along the normal, where every model is defined.
-  const CellGeometry padding = {1.0, 1.0, 0.0, 1.0, 1.0, 0.0, 0.0};
+  const CellGeometry padding = cell_geometry({0.0, 0.0, 0.0});
   while (cos_i_.size() % simd::kBlock != 0) add(padding, {0.0, 0.0, 0.0}, 0.0);
-  const auto logs = [](const std::vector<double>& from, std::vector<double>& to) {
-    to.resize(from.size());
-    std::ranges::transform(from, to.begin(), [](double x) { return kernel::log_or_zero(x); });
-  };
-  logs(cos_h_, log_cos_h_);
-  logs(cos_d_, log_cos_d_);
-  logs(one_minus_cos_h_, log_one_minus_cos_h_);
-  logs(one_minus_cos_d_, log_one_minus_cos_d_);
 }
 
 simd::GeometryColumns SampleSet::geometry() const {
@@ -160,12 +179,25 @@ simd::GeometryColumns SampleSet::swapped_geometry() const {
   return columns;
 }
 
+CellGeometry SampleSet::cell(std::size_t k) const {
+  return {cos_i_[k],
+          cos_o_[k],
+          sin_h_[k],
+          cos_h_[k],
+          cos_d_[k],
+          one_minus_cos_h_[k],
+          one_minus_cos_d_[k],
+          log_cos_h_[k],
+          log_cos_d_[k],
+          log_one_minus_cos_h_[k],
+          log_one_minus_cos_d_[k]};
+}
+
 SampleSet SampleSet::thinned(std::size_t stride) const {
   SampleSet result;
+  result.reserve(size_ / stride + 1);
   for (std::size_t k = 0; k < size_; k += stride) {
-    result.add(
-        {cos_i_[k], cos_o_[k], sin_h_[k], cos_h_[k], cos_d_[k], one_minus_cos_h_[k], one_minus_cos_d_[k]},
-        {f_[0][k], f_[1][k], f_[2][k]}, weight_[k]);
+    result.add(cell(k), {f_[0][k], f_[1][k], f_[2][k]}, weight_[k]);
   }
   result.finish();
   return result;
@@ -173,19 +205,30 @@ SampleSet SampleSet::thinned(std::size_t stride) const {
 
 SampleSet sample_table(const MeasuredTable& table, std::size_t cell_count, std::uint64_t seed,
                        const SamplingOptions& options) {
-  SampleSet samples;
-  const Grid& grid = table.grid();
-  const std::vector<std::size_t> cells = ordered_cells(
-      table, std::clamp<std::size_t>(cell_count, 1, std::max<std::size_t>(table.valid_count(), 1)),
-      lowest_cosine(options));
+  const GridGeometry geometry(table.grid());
+  const OrderedCells cells(table, geometry, lowest_observed_cosine(options.max_theta_deg),
+                           rows_per_stratum(table, cell_count));
   const std::size_t count = std::min(cell_count, cells.size());
+  std::vector<std::size_t> ends = {0};  // of the strata
+  std::vector<std::size_t> drawn;
   std::mt19937_64 random(seed);
   for (std::size_t stratum = 0; stratum < count; ++stratum) {
-    const std::size_t first = stratum * cells.size() / count;
-    const std::size_t end = (stratum + 1) * cells.size() / count;
-    const std::size_t cell = cells[first + random() % (end - first)];
-    add_cell(samples, cell_geometry(grid.angles_of(cell)), table.value(cell),
-             static_cast<double>(end - first), options.both_orders);
+    const std::size_t first = ends.back();
+    ends.push_back((stratum + 1) * cells.size() / count);
+    drawn.push_back(first + random() % (ends.back() - first));
+  }
+  const std::vector<OrderedCells::Cell> places = cells.at(drawn);
+  // Scattered over the table: reads that wait for nothing else overlap.
+  std::vector<Rgb> f;
+  f.reserve(count);
+  for (const auto& [i_h, i_d, i_p] : places) f.push_back(table.value(table.grid().index(i_h, i_d, i_p)));
+
+  SampleSet samples;
+  samples.reserve(options.both_orders ? 2 * count : count);
+  for (std::size_t k = 0; k < count; ++k) {
+    const auto& [i_h, i_d, i_p] = places[k];
+    add_cell(samples, geometry.cell(i_h, i_d, i_p), f[k], static_cast<double>(ends[k + 1] - ends[k]),
+             options.both_orders);
   }
   samples.finish();
   return samples;
@@ -195,7 +238,8 @@ SampleSet sample_slices(const MeasuredTable& table, std::span<const double> phi_
                         const SamplingOptions& options) {
   SampleSet samples;
   const Grid& grid = table.grid();
-  const double min_cosine = lowest_cosine(options);
+  const GridGeometry angles(grid);
+  const double min_cosine = lowest_observed_cosine(options.max_theta_deg);
   const std::vector<double> row_weights = slice_row_weights(grid);
   for (const double phi_d : phi_d_deg) {
     const int i_p = phi_d_index(grid, phi_d);
@@ -204,8 +248,8 @@ SampleSet sample_slices(const MeasuredTable& table, std::span<const double> phi_
       for (int i_d = 0; i_d < grid.n_theta_d; ++i_d) {
         const std::size_t cell = grid.index(i_h, i_d, i_p);
         if (!table.is_valid(cell)) continue;
-        const CellGeometry geometry = cell_geometry(grid.angles(i_h, i_d, i_p));
-        if (!is_observed(geometry, min_cosine)) continue;
+        const CellGeometry geometry = angles.cell(i_h, i_d, i_p);
+        if (std::min(geometry.cos_i, geometry.cos_o) < min_cosine) continue;
         add_cell(samples, geometry, table.value(cell), weight, options.both_orders);
       }
     }

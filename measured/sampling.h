@@ -11,22 +11,10 @@
 #include <vector>
 
 #include "brdf/simd/jobs.h"
+#include "measured/grid_geometry.h"
 #include "measured/table.h"
 
 namespace brdfit {
-
-// Cosines and their companions of one pair in half/difference coordinates.
-struct CellGeometry {
-  double cos_i;
-  double cos_o;
-  double sin_h;
-  double cos_h;
-  double cos_d;
-  double one_minus_cos_h;
-  double one_minus_cos_d;
-};
-
-CellGeometry cell_geometry(const HalfDiff& angles);
 
 // Observations as columns of equal length, padded to a multiple of simd::kBlock with entries of weight 0.
 class SampleSet {
@@ -34,7 +22,10 @@ class SampleSet {
   // Adds one observation: f measured for (wi, wo), in sr^-1. Weights need not sum to 1 until finish().
   void add(const CellGeometry& geometry, const Rgb& f, double weight);
 
-  // Pads, computes the logarithms and scales the weights to a sum of 1. Nothing may be added afterwards.
+  // Makes room for that many observations in all.
+  void reserve(std::size_t count);
+
+  // Pads and scales the weights to a sum of 1. Nothing may be added afterwards.
   void finish();
 
   std::size_t size() const { return size_; }  // observations
@@ -52,6 +43,8 @@ class SampleSet {
   SampleSet thinned(std::size_t stride) const;
 
  private:
+  CellGeometry cell(std::size_t k) const;
+
   std::size_t size_ = 0;
   std::vector<double> cos_i_, cos_o_, sin_h_, cos_h_, cos_d_, one_minus_cos_h_, one_minus_cos_d_;
   std::vector<double> log_cos_h_, log_cos_d_, log_one_minus_cos_h_, log_one_minus_cos_d_;
@@ -74,7 +67,7 @@ inline constexpr std::size_t kAllSamples = std::numeric_limits<std::size_t>::max
 // neighbours together (a theta_h row, patches of theta_d and phi_d within it), cut into cell_count strata of
 // equal size, and one cell is drawn from each. As the grid itself is square-root spaced in theta_h, the peak
 // is resolved. cell_count: kAllSamples, or more than there are, takes every cell once. The same seed gives
-// the same sample.
+// the same sample, whatever the number of threads.
 SampleSet sample_table(const MeasuredTable& table, std::size_t cell_count, std::uint64_t seed,
                        const SamplingOptions& options);
 

@@ -30,6 +30,10 @@ struct Slice {
 // The stored index that contains phi_d (folded into [0, 180)).
 int phi_d_index(const Grid& grid, double phi_d_deg);
 
+// The stored theta_h row that contains the centre of a column, of size columns over [0, 90) deg. Exact: a
+// centre on an edge belongs to the row that begins there.
+int theta_h_row_of_column(const Grid& grid, int column, int size);
+
 Slice make_slice(const MeasuredTable& table, double phi_d_deg = 90.0, int size = 90);
 
 }  // namespace brdfit

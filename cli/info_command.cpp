@@ -1,0 +1,122 @@
+// brdfit info: what a file holds, and whether it is sound.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <limits>
+
+#include "brdf/albedo.h"
+#include "cli/common.h"
+#include "cli/result_text.h"
+#include "cli/table_input.h"
+#include "cli/threads.h"
+#include "io/material_json.h"
+#include "io/sha256.h"
+
+namespace brdfit::cli {
+namespace {
+
+struct Arguments {
+  CommonOptions common;
+  std::string file;
+  bool lenient = false;
+};
+
+int describe_table(const Arguments& a) {
+  io::MerlReadOptions options;
+  options.lenient = a.lenient;
+  const LoadedTable loaded = load_table(a.file, options, a.common);
+  const Grid& grid = loaded.table.grid();
+  std::array<double, 3> least;
+  least.fill(std::numeric_limits<double>::infinity());
+  std::array<double, 3> largest = {0.0, 0.0, 0.0};
+  for (std::size_t cell = 0; cell < grid.cell_count(); ++cell) {
+    if (!loaded.table.is_valid(cell)) continue;
+    const Rgb f = loaded.table.value(cell);
+    for (std::size_t c = 0; c < 3; ++c) {
+      least[c] = std::min(least[c], f[c]);
+      largest[c] = std::max(largest[c], f[c]);
+    }
+  }
+  const double valid_pct =
+      100.0 * static_cast<double>(loaded.table.valid_count()) / static_cast<double>(grid.cell_count());
+  const std::string sha256 = io::sha256_of_file(a.file);
+  if (a.common.json) {
+    const io::Json json = {
+        {"kind", "merl"},
+        {"grid", {{"theta_h", grid.n_theta_h}, {"theta_d", grid.n_theta_d}, {"phi_d", grid.n_phi_d}}},
+        {"file_bytes", loaded.report.file_bytes},
+        {"cells", grid.cell_count()},
+        {"valid_cells", loaded.table.valid_count()},
+        {"non_finite_values", loaded.report.non_finite_values},
+        {"least", least},
+        {"largest", largest},
+        {"sha256", sha256}};
+    fmt::print("{}\n", json.dump(2));
+    return kDone;
+  }
+  fmt::print("MERL-format table, {} x {} x {} cells (theta_h, theta_d, phi_d), {} bytes\n", grid.n_theta_h,
+             grid.n_theta_d, grid.n_phi_d, loaded.report.file_bytes);
+  fmt::print("measured: {} of {} cells ({:.1f}%); values that are not finite: {}\n",
+             loaded.table.valid_count(), grid.cell_count(), valid_pct, loaded.report.non_finite_values);
+  fmt::print("f in sr^-1 from {:.4g} {:.4g} {:.4g} to {:.4g} {:.4g} {:.4g} (red, green, blue)\n", least[0],
+             least[1], least[2], largest[0], largest[1], largest[2]);
+  fmt::print("sha256 {}\n", sha256);
+  return kDone;
+}
+
+int describe_material(const Arguments& a) {
+  const Material material = io::read_material(a.file);
+  const double albedo = largest_directional_albedo(material);
+  if (a.common.json) {
+    io::Json json = io::material_to_json(material);
+    json["kind"] = "material";
+    json["largest_directional_albedo"] = albedo;
+    fmt::print("{}\n", json.dump(2));
+    return kDone;
+  }
+  std::string effects;
+  for (const Effect effect : all_effects()) {
+    if (material.effects().has(effect))
+      effects += (effects.empty() ? "" : ", ") + std::string(effect_name(effect));
+  }
+  fmt::print("{} material; effects: {}\n", title_of(material.model()), effects.empty() ? "none" : effects);
+  std::vector<std::vector<std::string>> rows;
+  for (const ParameterInfo& info : parameters_of(material.model())) {
+    if (!material.effects().has(info.effect)) continue;
+    const Rgb v = material.colour(info.name);
+    std::string srgb;
+    if (info.components == 3) {
+      srgb = fmt::format("({}, {}, {})", io::srgb8_from_linear(v[0]), io::srgb8_from_linear(v[1]),
+                         io::srgb8_from_linear(v[2]));
+    }
+    rows.push_back({std::string(info.name),
+                    info.components == 3 ? fmt::format("{:.4f} {:.4f} {:.4f}", v[0], v[1], v[2])
+                                         : fmt::format("{:.4g}", v[0]),
+                    srgb, std::string(name_of(info.tier)), std::string(info.help)});
+  }
+  fmt::print("{}", format_table({"parameter", "value", "8-bit sRGB", "tier", "meaning"}, rows));
+  fmt::print("largest directional albedo: {:.3f}{}\n", albedo,
+             albedo > 1.0 ? " (the material gives back more light than it gets)" : "");
+  return kDone;
+}
+
+int run(const Arguments& a) {
+  const ThreadLimit threads(a.common.threads);
+  if (std::filesystem::path(a.file).extension() == ".json") return describe_material(a);
+  return describe_table(a);
+}
+
+}  // namespace
+
+Command add_info_command(CLI::App& program) {
+  auto a = std::make_shared<Arguments>();
+  CLI::App* app = program.add_subcommand("info", "what a file holds, and whether it is sound");
+  app->footer("Example: brdfit info blue-fabric.binary");
+  app->add_option("file", a->file, "MERL-format .binary file, or a material .json")->required();
+  app->add_flag("--lenient", a->lenient, "take NaN and infinities as unmeasured, and say how many");
+  add_common_options(*app, a->common, false);
+  return {app, [a] { return run(*a); }};
+}
+
+}  // namespace brdfit::cli

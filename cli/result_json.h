@@ -1,0 +1,32 @@
+// Fit results as JSON: the evidence in a material file, and what --json prints.
+#ifndef BRDFIT_CLI_RESULT_JSON_H_
+#define BRDFIT_CLI_RESULT_JSON_H_
+
+#include <string>
+
+#include "fit/fit.h"
+#include "io/json.h"
+
+namespace brdfit::cli {
+
+// Where a result came from.
+struct Provenance {
+  std::string input;   // base name of the file, without its folder
+  std::string sha256;  // of its bytes
+  std::string version;
+  bool lenient = false;
+  std::size_t non_finite_values = 0;
+  std::string cell;  // "lower-edge" or "centre"
+};
+
+io::Json measures_to_json(const fit::Measures& measures);
+
+// The member "fit" of a material file. Everything that changes from run to run is under "timings_seconds".
+io::Json evidence_to_json(const fit::FitResult& result, const Provenance& provenance);
+
+// {"slice": {...}, "table": {...}, "reciprocity_gap_pct": x}
+io::Json evaluation_to_json(const fit::Evaluation& evaluation);
+
+}  // namespace brdfit::cli
+
+#endif  // BRDFIT_CLI_RESULT_JSON_H_

@@ -1,0 +1,125 @@
+// Tables of errors, parameters and timings.
+#include "cli/result_text.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "io/material_json.h"
+
+namespace brdfit::cli {
+namespace {
+
+std::string value_text(const Material& material, const ParameterInfo& info) {
+  if (info.components == 1) return fmt::format("{:.4g}", material.number(info.name));
+  const Rgb c = material.colour(info.name);
+  return fmt::format("{:.4f} {:.4f} {:.4f}", c[0], c[1], c[2]);
+}
+
+std::string srgb_text(const Material& material, const ParameterInfo& info) {
+  if (info.components == 1) return "";
+  const Rgb c = material.colour(info.name);
+  return fmt::format("({}, {}, {})", io::srgb8_from_linear(c[0]), io::srgb8_from_linear(c[1]),
+                     io::srgb8_from_linear(c[2]));
+}
+
+std::string range_text(const ParameterInfo& info) {
+  if (info.components == 3) return fmt::format("[{:g}, {:g}] = (0..255)", info.lower, info.upper);
+  return fmt::format("[{:g}, {:g}]", info.lower, info.upper);
+}
+
+std::string floors(double seconds, double floor_seconds) {
+  return fmt::format("{:.2f}x", seconds / floor_seconds);
+}
+
+}  // namespace
+
+std::string format_table(const std::vector<std::string>& heading,
+                         const std::vector<std::vector<std::string>>& rows) {
+  std::vector<std::size_t> widths;
+  for (const std::string& cell : heading) widths.push_back(cell.size());
+  for (const auto& row : rows) {
+    for (std::size_t k = 0; k < row.size(); ++k) widths[k] = std::max(widths[k], row[k].size());
+  }
+  std::string text;
+  const auto add = [&](const std::vector<std::string>& row) {
+    std::string line;
+    for (std::size_t k = 0; k < row.size(); ++k) {
+      line += k == 0 ? fmt::format("{:<{}}", row[k], widths[k]) : fmt::format("  {:>{}}", row[k], widths[k]);
+    }
+    text += line.substr(0, line.find_last_not_of(' ') + 1) + "\n";
+  };
+  add(heading);
+  std::vector<std::string> rule;
+  for (const std::size_t width : widths) rule.emplace_back(width, '-');
+  add(rule);
+  for (const auto& row : rows) add(row);
+  return text;
+}
+
+std::vector<std::string> measure_heading() {
+  return {"on", "log-ratio %", "slice %", "relative", "cube root", "sRGB", "cosine L2"};
+}
+
+std::vector<std::string> measure_cells(const fit::Evaluation& evaluation) {
+  // One row per model and place would double the table: slice and table stand side by side in each cell.
+  const fit::Measures& s = evaluation.slice;
+  const fit::Measures& t = evaluation.table;
+  return {"slice|table",
+          fmt::format("{:.2f}|{:.2f}", s.log_ratio_pct, t.log_ratio_pct),
+          fmt::format("{:.2f}|{:.2f}", s.slice_pct, t.slice_pct),
+          fmt::format("{:.3f}|{:.3f}", s.relative, t.relative),
+          fmt::format("{:.4f}|{:.4f}", s.cube_root, t.cube_root),
+          fmt::format("{:.4f}|{:.4f}", s.srgb, t.srgb),
+          fmt::format("{:.3g}|{:.3g}", s.cosine_l2, t.cosine_l2)};
+}
+
+std::string format_errors(std::span<const fit::FitResult> results) {
+  std::vector<std::string> heading = {"model", "free"};
+  std::ranges::copy(measure_heading(), std::back_inserter(heading));
+  heading.emplace_back("gap %");
+  heading.emplace_back("seconds");
+  std::vector<std::vector<std::string>> rows;
+  for (const fit::FitResult& result : results) {
+    std::vector<std::string> row = {std::string(title_of(result.material.model())),
+                                    std::to_string(result.free_parameters)};
+    std::ranges::copy(measure_cells(result.evaluation), std::back_inserter(row));
+    row.push_back(fmt::format("{:.2f}", result.evaluation.reciprocity_gap_pct));
+    row.push_back(fmt::format("{:.3f}", result.timings.total_seconds));
+    rows.push_back(std::move(row));
+  }
+  return format_table(heading, rows);
+}
+
+std::string format_parameters(const fit::FitResult& result) {
+  std::vector<std::vector<std::string>> rows;
+  for (const fit::ParameterState& state : result.parameters) {
+    const ParameterInfo& info = *find_parameter(result.material.model(), state.name);
+    rows.push_back({state.name, value_text(result.material, info), srgb_text(result.material, info),
+                    range_text(info), std::string(name_of(state.status))});
+  }
+  std::string text = std::string(title_of(result.material.model())) + "\n" +
+                     format_table({"parameter", "value", "8-bit sRGB", "range", "status"}, rows);
+  for (const std::string& note : result.notes) text += "  note: " + note + "\n";
+  return text;
+}
+
+std::string format_timings(std::span<const fit::FitResult> results, double load_seconds, double floor_seconds,
+                           std::size_t peak_bytes) {
+  std::vector<std::vector<std::string>> rows;
+  for (const fit::FitResult& result : results) {
+    const fit::FitTimings& t = result.timings;
+    rows.push_back({std::string(title_of(result.material.model())), floors(t.sample_seconds, floor_seconds),
+                    floors(t.explore_seconds, floor_seconds), floors(t.refine_seconds, floor_seconds),
+                    floors(t.evidence_seconds, floor_seconds), floors(t.measure_seconds, floor_seconds),
+                    floors(t.total_seconds, floor_seconds)});
+  }
+  return fmt::format(
+             "times in units of the load floor, {:.1f} ms (reading and converting the file's bytes); load "
+             "{}\n",
+             1e3 * floor_seconds, floors(load_seconds, floor_seconds)) +
+         format_table({"model", "sample", "explore", "refine", "evidence", "measure", "all"}, rows) +
+         fmt::format("peak memory {:.0f} MB\n", static_cast<double>(peak_bytes) / 1e6);
+}
+
+}  // namespace brdfit::cli

@@ -1,0 +1,33 @@
+// Fit results as tables for people.
+#ifndef BRDFIT_CLI_RESULT_TEXT_H_
+#define BRDFIT_CLI_RESULT_TEXT_H_
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "fit/fit.h"
+
+namespace brdfit::cli {
+
+// Columns of equal width, the first left and the others right aligned; a heading and a rule.
+std::string format_table(const std::vector<std::string>& heading,
+                         const std::vector<std::vector<std::string>>& rows);
+
+// The errors of one candidate (a model, a file) as cells of a row, in the order of measure_heading().
+std::vector<std::string> measure_heading();
+std::vector<std::string> measure_cells(const fit::Evaluation& evaluation);
+
+// Per model: free parameters, every measure on slice and table, seconds.
+std::string format_errors(std::span<const fit::FitResult> results);
+
+// Every parameter of a fit with its value, 8-bit sRGB for colours, its range and its status; then the notes.
+std::string format_parameters(const fit::FitResult& result);
+
+// The phases of the fits in units of the load floor.
+std::string format_timings(std::span<const fit::FitResult> results, double load_seconds, double floor_seconds,
+                           std::size_t peak_bytes);
+
+}  // namespace brdfit::cli
+
+#endif  // BRDFIT_CLI_RESULT_TEXT_H_

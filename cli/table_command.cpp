@@ -1,0 +1,211 @@
+// brdfit table: errors over many tables and models, fitted here or given as files.
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <map>
+
+#include "cli/common.h"
+#include "cli/fit_options.h"
+#include "cli/result_json.h"
+#include "cli/result_text.h"
+#include "cli/table_input.h"
+#include "cli/threads.h"
+#include "fit/fit.h"
+#include "io/material_json.h"
+
+namespace brdfit::cli {
+namespace {
+
+struct Arguments {
+  CommonOptions common;
+  FitArguments fit;
+  std::vector<std::string> inputs;
+  std::vector<std::string> against;
+};
+
+// One line of the result: a measured file and what was held against it.
+struct Row {
+  std::string file;
+  std::string candidate;
+  fit::Evaluation evaluation;
+  double seconds = 0.0;
+};
+
+// Files as they are; folders as the .binary files in them, in the order of their names.
+std::vector<std::string> expand(const std::vector<std::string>& inputs) {
+  std::vector<std::string> files;
+  for (const std::string& input : inputs) {
+    if (!std::filesystem::is_directory(input)) {
+      files.push_back(input);
+      continue;
+    }
+    std::vector<std::string> found;
+    for (const auto& entry : std::filesystem::directory_iterator(input)) {
+      if (entry.path().extension() == ".binary") found.push_back(entry.path().string());
+    }
+    if (found.empty()) {
+      throw io::IoError(io::IoError::Side::kInput, input, "holds no .binary file", "MERL-format tables");
+    }
+    std::ranges::sort(found);
+    std::ranges::copy(found, std::back_inserter(files));
+  }
+  return files;
+}
+
+bool is_material_file(const std::string& file) {
+  return std::filesystem::path(file).extension() == ".json";
+}
+
+void compare_given(const Arguments& a, const std::string& file, const MeasuredTable& reference,
+                   std::vector<Row>& rows) {
+  for (const std::string& candidate : a.against) {
+    const Stopwatch watch;
+    fit::Evaluation evaluation;
+    if (is_material_file(candidate)) {
+      evaluation = fit::evaluate(io::read_material(candidate), reference, a.fit.max_theta_deg);
+    } else {
+      const MeasuredTable table = load_table(candidate, make_read_options(a.fit), a.common).table;
+      if (table.grid() != reference.grid())
+        throw UsageError(candidate + " and " + file + " have different grids");
+      evaluation = fit::evaluate(table, reference, a.fit.max_theta_deg);
+    }
+    rows.push_back({file, candidate, evaluation, watch.seconds()});
+  }
+}
+
+void fit_models(const std::string& file, const MeasuredTable& reference,
+                const std::vector<fit::FitOptions>& all_options, std::vector<Row>& rows) {
+  for (const fit::FitOptions& options : all_options) {
+    if (interrupted()) return;
+    const fit::FitResult result = fit::fit(reference, options);
+    rows.push_back(
+        {file, std::string(name_of(options.model)), result.evaluation, result.timings.total_seconds});
+  }
+}
+
+fit::Measures mean_of(const std::vector<fit::Measures>& all) {
+  fit::Measures mean;
+  const auto n = static_cast<double>(all.size());
+  for (const fit::Measures& m : all) {
+    mean.log_ratio_pct += m.log_ratio_pct / n;
+    mean.slice_pct += m.slice_pct / n;
+    mean.relative += m.relative / n;
+    mean.cube_root += m.cube_root / n;
+    mean.srgb += m.srgb / n;
+    mean.cosine_l2 += m.cosine_l2 / n;
+    mean.cells += m.cells;
+  }
+  return mean;
+}
+
+// The mean over files for each candidate, where there are several files.
+std::vector<Row> means(const std::vector<Row>& rows) {
+  std::vector<std::string> order;
+  std::map<std::string, std::vector<const Row*>> by_candidate;
+  for (const Row& row : rows) {
+    if (!by_candidate.contains(row.candidate)) order.push_back(row.candidate);
+    by_candidate[row.candidate].push_back(&row);
+  }
+  std::vector<Row> result;
+  for (const std::string& candidate : order) {
+    const std::vector<const Row*>& group = by_candidate[candidate];
+    if (group.size() < 2) continue;
+    Row mean = {fmt::format("mean of {}", group.size()), candidate, {}, 0.0};
+    std::vector<fit::Measures> slices;
+    std::vector<fit::Measures> tables;
+    for (const Row* row : group) {
+      slices.push_back(row->evaluation.slice);
+      tables.push_back(row->evaluation.table);
+      mean.seconds += row->seconds / static_cast<double>(group.size());
+      mean.evaluation.reciprocity_gap_pct +=
+          row->evaluation.reciprocity_gap_pct / static_cast<double>(group.size());
+    }
+    mean.evaluation.slice = mean_of(slices);
+    mean.evaluation.table = mean_of(tables);
+    result.push_back(std::move(mean));
+  }
+  return result;
+}
+
+void print_rows(const CommonOptions& common, const std::vector<Row>& rows,
+                const std::map<std::string, std::string>& failures) {
+  const std::vector<Row> mean_rows = means(rows);
+  if (common.json) {
+    io::Json json = {
+        {"rows", io::Json::array()}, {"means", io::Json::array()}, {"failures", io::Json::object()}};
+    for (const auto* group : {&rows, &mean_rows}) {
+      for (const Row& row : *group) {
+        io::Json entry = {{"file", row.file}, {"candidate", row.candidate}};
+        entry.update(evaluation_to_json(row.evaluation));
+        entry["timings_seconds"] = {{"fit", row.seconds}};
+        json[group == &rows ? "rows" : "means"].push_back(entry);
+      }
+    }
+    for (const auto& [file, why] : failures) json["failures"][file] = why;
+    fmt::print("{}\n", json.dump(2));
+    return;
+  }
+  std::vector<std::string> heading = {"file", "candidate"};
+  std::ranges::copy(measure_heading(), std::back_inserter(heading));
+  heading.emplace_back("gap %");
+  heading.emplace_back("seconds");
+  std::vector<std::vector<std::string>> cells;
+  for (const auto* group : {&rows, &mean_rows}) {
+    for (const Row& row : *group) {
+      std::vector<std::string> line = {group == &rows ? base_name(row.file) : row.file, row.candidate};
+      std::ranges::copy(measure_cells(row.evaluation), std::back_inserter(line));
+      line.push_back(fmt::format("{:.2f}", row.evaluation.reciprocity_gap_pct));
+      line.push_back(fmt::format("{:.3f}", row.seconds));
+      cells.push_back(std::move(line));
+    }
+  }
+  fmt::print("{}", format_table(heading, cells));
+}
+
+int run(const Arguments& a) {
+  const std::vector<fit::FitOptions> all_options = make_fit_options(a.fit);
+  const std::vector<std::string> files = expand(a.inputs);
+  const ThreadLimit threads(a.common.threads);
+  std::vector<Row> rows;
+  std::map<std::string, std::string> failures;
+  for (std::size_t k = 0; k < files.size() && !interrupted(); ++k) {
+    say(a.common, fmt::format("[{}/{}] {}", k + 1, files.size(), files[k]));
+    try {
+      const LoadedTable loaded = load_table(files[k], make_read_options(a.fit), a.common);
+      if (a.against.empty()) {
+        fit_models(files[k], loaded.table, all_options, rows);
+      } else {
+        compare_given(a, files[k], loaded.table, rows);
+      }
+    } catch (const io::IoError& error) {
+      fmt::print(stderr, "brdfit table: {}\n", error.what());
+      failures[files[k]] = error.what();
+    }
+  }
+  if (failures.size() == files.size()) return kUnusableInput;
+  print_rows(a.common, rows, failures);
+  if (interrupted()) {
+    fmt::print(stderr, "brdfit table: interrupted; the rows above are complete\n");
+    return kFailed;
+  }
+  return failures.empty() ? kDone : kNotAllDone;
+}
+
+}  // namespace
+
+Command add_table_command(CLI::App& program) {
+  auto a = std::make_shared<Arguments>();
+  CLI::App* app = program.add_subcommand("table", "error tables over many measured tables and models");
+  app->footer(
+      "Example: brdfit table merl/ --model all\n"
+      "Example: brdfit table blue-fabric.binary --against fit.json exported.binary\n"
+      "holds materials or tables that exist against the measured one, without fitting.");
+  app->add_option("inputs", a->inputs, "MERL-format files, or folders of them")->required();
+  app->add_option("--against", a->against,
+                  "material JSON or MERL-format files to compare instead of fitting");
+  add_fit_arguments(*app, a->fit);
+  add_common_options(*app, a->common, false);
+  return {app, [a] { return run(*a); }};
+}
+
+}  // namespace brdfit::cli
