@@ -130,34 +130,67 @@ struct CallistoRows : CallistoLanes {
   }
 };
 
-// Rows of one channel over a block of samples: derivatives, then the residual, then zeros up to the tile. The
-// block is long enough for the sums across lanes at its end to weigh little, and short enough for the
-// second-level cache.
-constexpr std::size_t kRowLength = 4 * kBlock;
-using BlockRows = double[kGramSide][kRowLength];
-
-// Adds the products of rows, tile by tile, to the upper triangle.
+// Rows of one channel over a block of samples: derivatives, then the residual. Rows of all channels fit the
+// first-level cache.
+constexpr std::size_t kRowLength = 2 * kBlock;
 template <int Rows>
-void add_products(const BlockRows& rows, std::size_t length, double* gram) {
-  constexpr int tile = 4;
-  for (int i = 0; i < Rows; i += tile) {
-    for (int j = i; j < Rows; j += tile) {
-      V sums[tile][tile];
-      for (int a = 0; a < tile; ++a) {
-        for (int b = 0; b < tile; ++b) sums[a][b] = V(0.0);
-      }
-      for (std::size_t at = 0; at < length; at += V::size) {
-        V left[tile];
-        for (int a = 0; a < tile; ++a) left[a] = V::load(rows[i + a] + at);
-        for (int b = 0; b < tile; ++b) {
-          const V right = V::load(rows[j + b] + at);
-          for (int a = 0; a < tile; ++a) sums[a][b] = multiply_add(left[a], right, sums[a][b]);
-        }
-      }
-      for (int a = 0; a < tile; ++a) {
-        for (int b = 0; b < tile; ++b) gram[(i + a) * kGramSide + j + b] += sum(sums[a][b]);
+using BlockRows = double[Rows][kRowLength];
+
+// Products of rows i <= j, summed over samples lane by lane.
+template <int Rows>
+struct Products {
+  V sums[Rows][Rows];
+
+  HWY_INLINE void clear() {
+    for (int i = 0; i < Rows; ++i) {
+      for (int j = i; j < Rows; ++j) sums[i][j] = V(0.0);
+    }
+  }
+};
+
+// Rows are multiplied tile by tile: a tile's sums and its rows fill the registers. (Highway's vectors are of
+// 64 bytes only where there are 32 registers.) All row counts, 4, 9 and 15, are cut with little waste.
+constexpr int kTile = V::size == 8 ? 5 : 3;
+
+// The tile of rows I... by J...; of a tile on the diagonal the upper triangle.
+template <int Rows, int I, int J>
+HWY_INLINE void add_tile(const BlockRows<Rows>& rows, std::size_t length, Products<Rows>& products) {
+  constexpr int height = I + kTile < Rows ? kTile : Rows - I;
+  constexpr int width = J + kTile < Rows ? kTile : Rows - J;
+  V sums[height][width];
+#pragma GCC unroll 5
+  for (int a = 0; a < height; ++a) {
+#pragma GCC unroll 5
+    for (int b = I == J ? a : 0; b < width; ++b) sums[a][b] = products.sums[I + a][J + b];
+  }
+  for (std::size_t at = 0; at < length; at += V::size) {
+    V left[height];
+#pragma GCC unroll 5
+    for (int a = 0; a < height; ++a) left[a] = V::load(rows[I + a] + at);
+#pragma GCC unroll 5
+    for (int b = 0; b < width; ++b) {
+      const V right = I == J ? left[b] : V::load(rows[J + b] + at);
+#pragma GCC unroll 5
+      for (int a = 0; a < (I == J ? b + 1 : height); ++a) {
+        sums[a][b] = multiply_add(left[a], right, sums[a][b]);
       }
     }
+  }
+#pragma GCC unroll 5
+  for (int a = 0; a < height; ++a) {
+#pragma GCC unroll 5
+    for (int b = I == J ? a : 0; b < width; ++b) products.sums[I + a][J + b] = sums[a][b];
+  }
+}
+
+// All tiles from (I, J) on.
+template <int Rows, int I = 0, int J = 0>
+HWY_INLINE void add_products(const BlockRows<Rows>& rows, std::size_t length, Products<Rows>& products) {
+  add_tile<Rows, I, J>(rows, length, products);
+  if constexpr (J + kTile < Rows) {
+    add_products<Rows, I, J + kTile>(rows, length, products);
+  } else if constexpr (I + kTile < Rows) {
+    add_products<Rows, I + kTile, I + kTile>(rows, length, products);
   }
 }
 
@@ -202,9 +235,10 @@ HWY_INLINE Counted count(const GramJob& job, int c, std::size_t at, V y, V cos_i
 template <class ModelRows>
 HWY_FLATTEN void gram_of(const GramJob& job, Gram& gram) {
   constexpr int n = ModelRows::coefficients;
-  constexpr int padded = (n + 1 + 3) / 4 * 4;
   ModelRows model(job.coefficients);
-  BlockRows blocks[3] = {};
+  BlockRows<n + 1> blocks[3];
+  Products<n + 1> products[3];
+  for (auto& channel : products) channel.clear();
   V total(0.0);
   for (std::size_t first = 0; first < job.count; first += kRowLength) {
     const std::size_t length = job.count - first < kRowLength ? job.count - first : kRowLength;
@@ -222,7 +256,12 @@ HWY_FLATTEN void gram_of(const GramJob& job, Gram& gram) {
         total = multiply_add(weight * weight, counted.cost, total);
       }
     }
-    for (int c = 0; c < 3; ++c) add_products<padded>(blocks[c], length, gram.channel[c]);
+    for (int c = 0; c < 3; ++c) add_products(blocks[c], length, products[c]);
+  }
+  for (int c = 0; c < 3; ++c) {
+    for (int i = 0; i <= n; ++i) {
+      for (int j = i; j <= n; ++j) gram.channel[c][i * kGramSide + j] = sum(products[c].sums[i][j]);
+    }
   }
   gram.cost = sum(total);
 }

@@ -146,6 +146,7 @@ Solution solve_pinning(const Problem& problem, const std::vector<double>& x, con
   Solution best = solve(problem, x, box, first);
   int iterations = best.iterations;
   int evaluations = best.evaluations;
+  std::vector<bool> moved = box.moves;
   for (int round = 0; round < kRounds && iterations < options.max_iterations; ++round) {
     const Eigen::VectorXd gradient = gradient_at(problem, best.x);
     Box active = box;
@@ -154,15 +155,13 @@ Solution solve_pinning(const Problem& problem, const std::vector<double>& x, con
         active.moves[k] = false;
       }
     }
+    if (best.converged && active.moves == moved) break;
     SolveOptions rest = options;
     rest.max_iterations = options.max_iterations - iterations;
-    const double before = best.cost;
-    Solution next = solve(problem, best.x, active, rest);
-    iterations += next.iterations;
-    evaluations += next.evaluations;
-    const bool settled = next.converged && before - next.cost <= 1e-7 * before;
-    best = std::move(next);
-    if (settled) break;
+    best = solve(problem, best.x, active, rest);
+    moved = active.moves;
+    iterations += best.iterations;
+    evaluations += best.evaluations;
   }
   best.iterations = iterations;
   best.evaluations = evaluations;
