@@ -84,16 +84,8 @@ int describe_material(const Arguments& a) {
   std::vector<std::vector<std::string>> rows;
   for (const ParameterInfo& info : parameters_of(material.model())) {
     if (!material.effects().has(info.effect)) continue;
-    const Rgb v = material.colour(info.name);
-    std::string srgb;
-    if (info.components == 3) {
-      srgb = fmt::format("({}, {}, {})", io::srgb8_from_linear(v[0]), io::srgb8_from_linear(v[1]),
-                         io::srgb8_from_linear(v[2]));
-    }
-    rows.push_back({std::string(info.name),
-                    info.components == 3 ? fmt::format("{:.4f} {:.4f} {:.4f}", v[0], v[1], v[2])
-                                         : fmt::format("{:.4g}", v[0]),
-                    srgb, std::string(name_of(info.tier)), std::string(info.help)});
+    rows.push_back({std::string(info.name), value_text(material, info), srgb_text(material, info),
+                    std::string(name_of(info.tier)), std::string(info.help)});
   }
   fmt::print("{}", format_table({"parameter", "value", "8-bit sRGB", "tier", "meaning"}, rows));
   fmt::print("largest directional albedo: {:.3f}{}\n", albedo,

@@ -10,6 +10,17 @@
 namespace brdfit::cli {
 namespace {
 
+std::string range_text(const ParameterInfo& info) {
+  if (info.components == 3) return fmt::format("[{:g}, {:g}] = (0..255)", info.lower, info.upper);
+  return fmt::format("[{:g}, {:g}]", info.lower, info.upper);
+}
+
+std::string floors(double seconds, double floor_seconds) {
+  return fmt::format("{:.2f}x", seconds / floor_seconds);
+}
+
+}  // namespace
+
 std::string value_text(const Material& material, const ParameterInfo& info) {
   if (info.components == 1) return fmt::format("{:.4g}", material.number(info.name));
   const Rgb c = material.colour(info.name);
@@ -22,17 +33,6 @@ std::string srgb_text(const Material& material, const ParameterInfo& info) {
   return fmt::format("({}, {}, {})", io::srgb8_from_linear(c[0]), io::srgb8_from_linear(c[1]),
                      io::srgb8_from_linear(c[2]));
 }
-
-std::string range_text(const ParameterInfo& info) {
-  if (info.components == 3) return fmt::format("[{:g}, {:g}] = (0..255)", info.lower, info.upper);
-  return fmt::format("[{:g}, {:g}]", info.lower, info.upper);
-}
-
-std::string floors(double seconds, double floor_seconds) {
-  return fmt::format("{:.2f}x", seconds / floor_seconds);
-}
-
-}  // namespace
 
 std::string format_table(const std::vector<std::string>& heading,
                          const std::vector<std::vector<std::string>>& rows) {

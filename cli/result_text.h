@@ -14,6 +14,10 @@ namespace brdfit::cli {
 std::string format_table(const std::vector<std::string>& heading,
                          const std::vector<std::vector<std::string>>& rows);
 
+// A parameter's value, and its 8-bit sRGB triple if it is a colour or a tint (empty if it is a number).
+std::string value_text(const Material& material, const ParameterInfo& info);
+std::string srgb_text(const Material& material, const ParameterInfo& info);
+
 // The errors of one candidate (a model, a file) as cells of a row, in the order of measure_heading().
 std::vector<std::string> measure_heading();
 std::vector<std::string> measure_cells(const fit::Evaluation& evaluation);
