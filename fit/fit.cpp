@@ -10,9 +10,9 @@
 #include <stdexcept>
 
 #include "brdf/albedo.h"
-#include "brdf/kernel/fresnel.h"
 #include "brdf/models.h"
 #include "fit/explore.h"
+#include "fit/metallic.h"
 #include "fit/problem.h"
 #include "fit/solve.h"
 
@@ -26,17 +26,8 @@ constexpr std::size_t kExplored = 2400;
 constexpr double kWidening = 3.0;
 constexpr std::size_t kRefined = 2;  // starts that are refined on all samples
 
-constexpr double kVisibleMetallic = 0.005;
-// A dielectric whose loss is higher by less than this share is kept instead of a metal.
-constexpr double kSameLoss = 0.01;
-// The least f0 of bare metals in their brightest channel, with a margin (Akenine-Moeller et al. 2018,
-// Real-Time Rendering, table 9.2: titanium 0.54).
-constexpr double kMetalF0 = 0.45;
-// A metal whose loss is less than a third of the dielectric's has been told apart by the measurement.
-constexpr double kDecidedExcess = 2.0;
 // Iterations after which candidates are compared; only the best is carried to its minimum.
 constexpr int kBriefIterations = 12;
-constexpr int kDielectricIterations = 30;
 
 // A directional albedo above this is more than the quadrature's error above 1.
 constexpr double kFurnaceBound = 1.01;
@@ -63,15 +54,6 @@ Material start_material(const FitOptions& options) {
   Material material = options.init ? *options.init : Material(options.model);
   material.options() = options.material_options;
   return material;
-}
-
-double largest_f0(const Material& material) {
-  double largest = 0.0;
-  for (const double base : material.colour("base_color")) {
-    largest = std::max(largest,
-                       kernel::metallic_f0(base, material.number("metallic"), material.number("specular")));
-  }
-  return largest;
 }
 
 SampleSet draw_samples(const MeasuredTable& table, const FitOptions& options, const Material& material) {
@@ -117,13 +99,6 @@ struct Data {
     part_wide_targets = part_targets;
     part_wide_targets.robust_width *= kWidening;
   }
-};
-
-// A candidate, and what was found about its metallic.
-struct Decided {
-  Candidate candidate;
-  std::string note;                 // a sentence for the result; empty where there is nothing to say
-  bool metallic_undecided = false;  // metallic 0 fits as well
 };
 
 class Fitter {
@@ -177,8 +152,10 @@ class Fitter {
     result_.starts_near_best = static_cast<int>(std::ranges::count_if(
         candidates_, [&](const Candidate& c) { return c.solution.cost <= 1.05 * best_cost; }));
     std::vector<Decided> refined;
-    for (Candidate& candidate : distinct(candidates_, kRefined))
-      refined.push_back(decide_metallic(candidate));
+    for (Candidate& candidate : distinct(candidates_, kRefined)) {
+      refined.push_back(decide_metallic(on_part_, candidate));
+      result_.evaluations += refined.back().evaluations;
+    }
     SolveOptions brief;
     brief.max_iterations = refined.size() > 1 ? kBriefIterations : SolveOptions().max_iterations;
     tbb::parallel_for(std::size_t{0}, refined.size(), [&](std::size_t k) {
@@ -196,70 +173,14 @@ class Fitter {
     result_.evaluations += solution.evaluations;
   }
 
-  // Metallic splits the base colour between diffuse and specular, and a low metallic does what specular does.
-  // So a candidate that moved it is searched again without: if that is as good, the simpler material is kept.
-  // If it is not, but f0 is below that of any bare metal, the fit says that metallic stands in for something
-  // else.
-  Decided decide_metallic(const Candidate& metal) {
-    Decided decided = {metal, "", false};
-    const std::size_t at = index_of("metallic");
-    if (at == parametrisation_.size() || metal.solution.x[at] < kVisibleMetallic) return decided;
-    const double metallic = metal.solution.x[at];
-    const Material with = parametrisation_.to_material(metal.solution.x);
-    Candidate without = metal;
-    without.box.moves[at] = false;
-    SolveOptions search;
-    search.max_iterations = kDielectricIterations;
-    without.solution = solve_pinning(on_part_, as_dielectric(with, metallic), without.box, search);
-    result_.evaluations += without.solution.evaluations;
-    const double excess = without.solution.cost / std::max(metal.solution.cost, 1e-300) - 1.0;
-    const double f0 = largest_f0(with);
-    if (excess <= kSameLoss) {
-      decided = {
-          without,
-          fmt::format("metallic and specular cannot be told apart: metallic 0 fits as well as {:.2f} (loss "
-                      "{:+.1f}%) and was kept",
-                      metallic, 100.0 * excess),
-          true};
-    } else if (f0 < kMetalF0 && excess <= kDecidedExcess) {
-      decided.note = fmt::format(
-          "metallic and specular cannot be told apart: f0 is {:.2f} at most, below that of bare metals "
-          "(about 0.5), so "
-          "metallic {:.2f} stands in for something else; without it the loss is {:.1f}% higher (--fix "
-          "metallic=0)",
-          f0, metallic, 100.0 * excess);
-    }
-    return decided;
-  }
-
-  std::size_t index_of(std::string_view name) const {
-    const auto found = std::ranges::find(parametrisation_.free, name, &FreeParameter::name);
-    return static_cast<std::size_t>(found - parametrisation_.free.begin());
-  }
-
-  // The same diffuse albedo and the same mean f0 with metallic 0, as far as ranges allow.
-  std::vector<double> as_dielectric(const Material& material, double metallic) const {
-    Material copy = material;
-    Rgb base = material.colour("base_color");
-    double mean_f0 = 0.0;
-    for (double& channel : base) {
-      mean_f0 += kernel::metallic_f0(channel, metallic, material.number("specular")) / 3.0;
-      channel *= 1.0 - metallic;
-    }
-    copy.set("base_color", base);
-    copy.set("metallic", 0.0);
-    copy.set("specular", std::min(mean_f0 / 0.08, 1.0));
-    return parametrisation_.from_material(copy);
-  }
-
   void look_at_evidence() {
     const Solution& solution = published_.candidate.solution;
     if (!published_.note.empty()) result_.notes.push_back(published_.note);
     Identifiability identifiability = identify(parametrisation_, solution.x, on_all_.gram(solution.x));
     if (published_.metallic_undecided) {
-      for (const char* name : {"metallic", "specular"}) {
-        const std::size_t k = index_of(name);
-        if (k < parametrisation_.size()) identifiability.status[k] = Status::kUnidentifiable;
+      for (std::size_t k = 0; k < parametrisation_.size(); ++k) {
+        const std::string& name = parametrisation_.free[k].name;
+        if (name == "metallic" || name == "specular") identifiability.status[k] = Status::kUnidentifiable;
       }
     }
     result_.parameters = public_states(parametrisation_, solution.x, identifiability);

@@ -16,17 +16,12 @@ namespace {
 using fit::Gram;
 using fit::GramJob;
 using fit::kGramSide;
-using fit::kMaxCoefficients;
 
 template <int N>
 using D = Dual<double, N>;
 
-// A channel's f cos_i and its derivatives.
-struct Row {
-  V y;
-  V dy[kMaxCoefficients];
-};
-
+// Each model: prepare() evaluates its terms, y() is a channel's f cos_i, and derivatives() are those of y
+// times a slope. The slope goes into factors that derivatives share.
 struct LambertGgxRows : LambertGgxLanes {
   static constexpr int coefficients = fit::kLambertGgxCoefficients;
   using LambertGgxLanes::LambertGgxLanes;
@@ -38,12 +33,13 @@ struct LambertGgxRows : LambertGgxLanes {
     at = kernel::lambert_ggx_terms(s, g, masking, diffuse);
     value = {at.diffuse.a, at.falloff.a, at.specular.a};
   }
-  HWY_INLINE void row(int c, Row& r) const {
-    const V f = kernel::fresnel(colour[c].f0, value.falloff);
-    r.y = combine(c, value);
-    r.dy[0] = colour[c].rho * at.diffuse.d[0] + f * at.specular.d[0];
-    r.dy[1] = value.diffuse;
-    r.dy[2] = (V(1.0) - value.falloff) * value.specular;
+  HWY_INLINE V y(int c) const { return combine(c, value); }
+  HWY_INLINE void derivatives(int c, V slope, V* dy) const {
+    const V specular = slope * value.specular;
+    const V f = slope * kernel::fresnel(colour[c].f0, value.falloff);
+    dy[0] = slope * colour[c].rho * at.diffuse.d[0] + f * at.specular.d[0];
+    dy[1] = slope * value.diffuse;
+    dy[2] = (V(1.0) - value.falloff) * specular;
   }
 };
 
@@ -61,17 +57,18 @@ struct BurleyRows : BurleyLanes {
     at = kernel::burley_terms(s, g, burley_g, effects);
     value = {at.diffuse.a, at.sheen.a, at.falloff.a, at.specular.a, at.clearcoat.a};
   }
-  HWY_INLINE void row(int c, Row& r) const {
-    const V f = kernel::fresnel(colour[c].f0, value.falloff);
-    r.y = combine(c, value);
-    r.dy[0] = colour[c].rho * at.diffuse.d[0] + f * at.specular.d[0];
-    r.dy[1] = colour[c].rho * at.diffuse.d[1];
-    r.dy[2] = f * at.specular.d[1];
-    r.dy[3] = colour[c].clearcoat * at.clearcoat.d[1];
-    r.dy[4] = value.diffuse;
-    r.dy[5] = value.sheen;
-    r.dy[6] = (V(1.0) - value.falloff) * value.specular;
-    r.dy[7] = value.clearcoat;
+  HWY_INLINE V y(int c) const { return combine(c, value); }
+  HWY_INLINE void derivatives(int c, V slope, V* dy) const {
+    const V rho = slope * colour[c].rho;
+    const V f = slope * kernel::fresnel(colour[c].f0, value.falloff);
+    dy[0] = rho * at.diffuse.d[0] + f * at.specular.d[0];
+    dy[1] = rho * at.diffuse.d[1];
+    dy[2] = f * at.specular.d[1];
+    dy[3] = slope * colour[c].clearcoat * at.clearcoat.d[1];
+    dy[4] = slope * value.diffuse;
+    dy[5] = slope * value.sheen;
+    dy[6] = slope * ((V(1.0) - value.falloff) * value.specular);
+    dy[7] = slope * value.clearcoat;
   }
 };
 
@@ -98,43 +95,48 @@ struct CallistoRows : CallistoLanes {
              at.specular.a, at.terminator.a, at.terminator_step.a};
   }
 
+  HWY_INLINE V y(int c) const { return combine(c, value); }
   // y = sum c2 with sum = gain_f gain_r rho diffuse + f specular, as callisto_combine writes it.
-  HWY_INLINE void row(int c, Row& r) const {
+  HWY_INLINE void derivatives(int c, V slope, V* dy) const {
     const kernel::CallistoColour<V>& k = colour[c];
     const V one(1.0);
     const V gain_f = one + (k.fresnel - one) * value.fresnel;
     const V gain_r = one + (k.retro - one) * value.retro;
     const V f = kernel::fresnel(k.f0, value.falloff);
-    const V c2 = one + (value.terminator_step - one) * (value.terminator * k.terminator);
-    const V sum = gain_f * gain_r * k.rho * value.diffuse + f * value.specular;
+    const V masked_step = (value.terminator_step - one) * value.terminator;
+    const V c2 = slope * (one + masked_step * k.terminator);
+    const V gains = gain_f * gain_r * c2;
+    const V diffuse_c2 = k.rho * value.diffuse * c2;
+    const V specular_c2 = value.specular * c2;
+    const V sum = slope * (gain_f * gain_r * k.rho * value.diffuse + f * value.specular);
     const V by_specular = f * c2;
-    const V by_gain_f = gain_r * k.rho * value.diffuse * c2;
-    const V by_gain_r = gain_f * k.rho * value.diffuse * c2;
+    const V by_gain_f = gain_r * diffuse_c2;
+    const V by_gain_r = gain_f * diffuse_c2;
     const V by_fresnel = by_gain_f * (k.fresnel - one);
     const V by_retro = by_gain_r * (k.retro - one);
-    r.y = combine(c, value);
-    r.dy[0] = by_specular * at.specular.d[0] + gain_f * gain_r * k.rho * at.diffuse.d[0] * c2;
-    r.dy[1] = by_specular * at.specular.d[1];
-    r.dy[2] = by_specular * at.specular.d[2];
-    r.dy[3] = by_fresnel * at.fresnel.d[0];
-    r.dy[4] = by_fresnel * at.fresnel.d[1];
-    r.dy[5] = by_retro * at.retro.d[0];
-    r.dy[6] = by_retro * at.retro.d[1];
-    r.dy[7] = (one - k.f0) * at.falloff.d[0] * value.specular * c2;
-    r.dy[8] = sum * value.terminator * k.terminator * at.terminator_step.d[0];
-    r.dy[9] = gain_f * gain_r * value.diffuse * c2;
-    r.dy[10] = (one - value.falloff) * value.specular * c2;
-    r.dy[11] = by_gain_f * value.fresnel;
-    r.dy[12] = by_gain_r * value.retro;
-    r.dy[13] = sum * (value.terminator_step - one) * value.terminator;
+    dy[0] = by_specular * at.specular.d[0] + gains * k.rho * at.diffuse.d[0];
+    dy[1] = by_specular * at.specular.d[1];
+    dy[2] = by_specular * at.specular.d[2];
+    dy[3] = by_fresnel * at.fresnel.d[0];
+    dy[4] = by_fresnel * at.fresnel.d[1];
+    dy[5] = by_retro * at.retro.d[0];
+    dy[6] = by_retro * at.retro.d[1];
+    dy[7] = (one - k.f0) * at.falloff.d[0] * specular_c2;
+    dy[8] = sum * value.terminator * k.terminator * at.terminator_step.d[0];
+    dy[9] = gains * value.diffuse;
+    dy[10] = (one - value.falloff) * specular_c2;
+    dy[11] = by_gain_f * value.fresnel;
+    dy[12] = by_gain_r * value.retro;
+    dy[13] = sum * masked_step;
   }
 };
 
 // Rows of one channel over a block of samples: derivatives, then the residual. Rows of all channels fit the
-// first-level cache.
+// cache; their stride is not a power of two, so that they do not compete for the same lines of it.
 constexpr std::size_t kRowLength = 2 * kBlock;
+constexpr std::size_t kRowStride = kRowLength + 8;
 template <int Rows>
-using BlockRows = double[Rows][kRowLength];
+using BlockRows = double[Rows][kRowStride];
 
 // Products of rows i <= j, summed over samples lane by lane.
 template <int Rows>
@@ -214,9 +216,11 @@ HWY_INLINE V robust_cost(V residual, double width, V& weight) {
   return V(width * width) * (t * t / (root + V(1.0)));  // root - 1 without cancellation
 }
 
-HWY_INLINE Counted count(const GramJob& job, int c, std::size_t at, V y, V cos_i) {
+// inverse_cos_i: 1 / cos_i, which all channels share.
+HWY_INLINE Counted count(const GramJob& job, int c, std::size_t at, V y, V cos_i, V inverse_cos_i) {
   const auto main = fit::transform(job.loss, y, cos_i);
-  const auto clipped = fit::transform(BRDFIT_LOSS_SLICE, y, cos_i);
+  // Of f itself: the slope still lacks the factor 1 / cos_i.
+  const auto clipped = fit::transform(BRDFIT_LOSS_SLICE, y * inverse_cos_i, V(1.0));
   const V r = main.value - V::load(job.target[c] + at);
   const V u = clipped.value - V::load(job.clipped_target[c] + at);
   const V share = V::load(job.clipped_share + at);
@@ -224,19 +228,20 @@ HWY_INLINE Counted count(const GramJob& job, int c, std::size_t at, V y, V cos_i
   V clipped_weight;
   const V main_cost = robust_cost(r, job.robust_width, weight);
   const V cost = multiply_add(share, robust_cost(u, job.clipped_width, clipped_weight), main_cost);
-  const V clipped_slope = share * clipped_weight * clipped.slope;
+  const V clipped_slope = clipped.slope * inverse_cos_i;
+  const V clipped_factor = share * clipped_weight * clipped_slope;
   // Two residuals with slopes a and b and the same derivatives are one with slope sqrt(a^2 + b^2), as far as
   // the Gram matrix goes.
-  const V slope_squared = weight * main.slope * main.slope + clipped_slope * clipped.slope;
+  const V slope_squared = weight * main.slope * main.slope + clipped_factor * clipped_slope;
   const V slope = sqrt(kernel::at_least(slope_squared, V(1e-200)));
-  return {slope, (weight * main.slope * r + clipped_slope * u) / slope, cost};
+  return {slope, (weight * main.slope * r + clipped_factor * u) / slope, cost};
 }
 
 template <class ModelRows>
 HWY_FLATTEN void gram_of(const GramJob& job, Gram& gram) {
   constexpr int n = ModelRows::coefficients;
   ModelRows model(job.coefficients);
-  BlockRows<n + 1> blocks[3];
+  alignas(64) BlockRows<n + 1> blocks[3];
   Products<n + 1> products[3];
   for (auto& channel : products) channel.clear();
   V total(0.0);
@@ -246,14 +251,18 @@ HWY_FLATTEN void gram_of(const GramJob& job, Gram& gram) {
       const kernel::Geometry<V> g = load_geometry(job.geometry, first + at);
       model.prepare(g, load_logs(job.geometry, first + at));
       const V weight = V::load(job.sqrt_weight + first + at);
+      const V inverse_cos_i = V(1.0) / g.cos_i;
+      // All channels first: what one waits for, roots and quotients, overlaps with the others.
+      Counted counted[3];
       for (int c = 0; c < 3; ++c) {
-        Row row;
-        model.row(c, row);
-        const Counted counted = count(job, c, first + at, row.y, g.cos_i);
-        const V slope = weight * counted.slope;
-        for (int k = 0; k < n; ++k) (row.dy[k] * slope).store(blocks[c][k] + at);
-        (weight * counted.residual).store(blocks[c][n] + at);
-        total = multiply_add(weight * weight, counted.cost, total);
+        counted[c] = count(job, c, first + at, model.y(c), g.cos_i, inverse_cos_i);
+      }
+      for (int c = 0; c < 3; ++c) {
+        V dy[n];
+        model.derivatives(c, weight * counted[c].slope, dy);
+        for (int k = 0; k < n; ++k) dy[k].store(blocks[c][k] + at);
+        (weight * counted[c].residual).store(blocks[c][n] + at);
+        total = multiply_add(weight * weight, counted[c].cost, total);
       }
     }
     for (int c = 0; c < 3; ++c) add_products(blocks[c], length, products[c]);
@@ -274,8 +283,10 @@ HWY_FLATTEN double cost_of(const GramJob& job) {
     const kernel::Geometry<V> g = load_geometry(job.geometry, at);
     const auto terms = model.terms(g, load_logs(job.geometry, at));
     const V weight = V::load(job.sqrt_weight + at);
+    const V inverse_cos_i = V(1.0) / g.cos_i;
     for (int c = 0; c < 3; ++c) {
-      total = multiply_add(weight * weight, count(job, c, at, model.combine(c, terms), g.cos_i).cost, total);
+      const Counted counted = count(job, c, at, model.combine(c, terms), g.cos_i, inverse_cos_i);
+      total = multiply_add(weight * weight, counted.cost, total);
     }
   }
   return sum(total);

@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <random>
 
 #include "measured/slice.h"
@@ -116,8 +115,7 @@ std::vector<double> slice_row_weights(const Grid& grid) {
   const double n = grid.n_theta_h;
   for (int i = 0; i < grid.n_theta_h; ++i) weights.push_back(0.5 * kColumns * (2.0 * i + 1.0) / (n * n));
   for (int column = 0; column < kColumns; ++column) {
-    const double theta_h_rad = (column + 0.5) / kColumns * std::numbers::pi / 2;
-    weights[static_cast<std::size_t>(grid.row_of_theta_h(theta_h_rad))] += 0.5;
+    weights[static_cast<std::size_t>(theta_h_row_of_column(grid, column, kColumns))] += 0.5;
   }
   return weights;
 }

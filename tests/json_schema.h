@@ -3,6 +3,8 @@
 #define BRDFIT_TESTS_JSON_SCHEMA_H_
 
 #include <algorithm>
+#include <map>
+#include <regex>
 #include <set>
 #include <stdexcept>
 #include <string>
@@ -15,7 +17,9 @@ namespace brdfit::tests {
 // A schema; a keyword that is not known here is an error, not a pass.
 class JsonSchema {
  public:
-  explicit JsonSchema(io::Json schema) : root_(std::move(schema)) {}
+  // others: the schemas that this one refers to, by the name of their file.
+  explicit JsonSchema(io::Json schema, std::map<std::string, JsonSchema> others = {})
+      : root_(std::move(schema)), others_(std::move(others)) {}
 
   // What the value breaks first, as "PLACE: KEYWORD"; empty if it is valid.
   std::string complaint(const io::Json& value) const { return check(root_, value, ""); }
@@ -34,13 +38,19 @@ class JsonSchema {
 
   std::string check_keyword(const Json& schema, const std::string& keyword, const Json& rule,
                             const Json& value, const std::string& place) const {
-    static const std::set<std::string> kNotes = {"$schema",     "$defs",   "title",
-                                                 "description", "default", "then"};
+    static const std::set<std::string> kNotes = {"$schema", "$defs", "title", "description",
+                                                 "default", "then",  "else"};
     if (kNotes.contains(keyword)) return "";
-    if (keyword == "$ref") return check(resolve(rule.get<std::string>()), value, place);
+    if (keyword == "$ref") return check_reference(rule.get<std::string>(), value, place);
     if (keyword == "if") {
-      const bool applies = check(rule, value, place).empty() && schema.contains("then");
-      return applies ? check(schema["then"], value, place) : "";
+      const char* branch = check(rule, value, place).empty() ? "then" : "else";
+      return schema.contains(branch) ? check(schema[branch], value, place) : "";
+    }
+    if (keyword == "anyOf") return any_holds(rule, value) ? "" : place + ": anyOf";
+    if (keyword == "contains") {
+      const bool found = std::any_of(value.begin(), value.end(),
+                                     [&](const Json& item) { return check(rule, item, place).empty(); });
+      return found || !value.is_array() ? "" : place + ": contains";
     }
     if (keyword == "allOf") {
       for (const Json& part : rule) {
@@ -50,6 +60,21 @@ class JsonSchema {
     }
     if (keyword == "properties" || keyword == "items") return check_inside(keyword, rule, value, place);
     return holds(schema, keyword, rule, value) ? "" : place + ": " + keyword;
+  }
+
+  // "#/place/in/this/schema", or the name of another schema's file.
+  std::string check_reference(const std::string& reference, const Json& value,
+                              const std::string& place) const {
+    if (reference.starts_with('#')) {
+      return check(root_.at(Json::json_pointer(reference.substr(1))), value, place);
+    }
+    const JsonSchema& other = others_.at(reference);
+    return other.check(other.root_, value, place);
+  }
+
+  bool any_holds(const Json& schemas, const Json& value) const {
+    return std::any_of(schemas.begin(), schemas.end(),
+                       [&](const Json& schema) { return check(schema, value, "").empty(); });
   }
 
   std::string check_inside(const std::string& keyword, const Json& rule, const Json& value,
@@ -71,6 +96,11 @@ class JsonSchema {
     if (keyword == "enum") return std::find(rule.begin(), rule.end(), value) != rule.end();
     if (keyword == "minimum") return !value.is_number() || value >= rule;
     if (keyword == "maximum") return !value.is_number() || value <= rule;
+    if (keyword == "exclusiveMinimum") return !value.is_number() || value > rule;
+    if (keyword == "exclusiveMaximum") return !value.is_number() || value < rule;
+    if (keyword == "minLength") return !value.is_string() || length(value) >= rule.get<std::size_t>();
+    if (keyword == "pattern") return !value.is_string() || matches(value, rule);
+    if (keyword == "minProperties") return !value.is_object() || value.size() >= rule.get<std::size_t>();
     if (keyword == "minItems") return !value.is_array() || value.size() >= rule.get<std::size_t>();
     if (keyword == "maxItems") return !value.is_array() || value.size() <= rule.get<std::size_t>();
     if (keyword == "uniqueItems") return !value.is_array() || is_unique(value);
@@ -98,6 +128,13 @@ class JsonSchema {
     throw std::logic_error("JsonSchema does not know the type " + type);
   }
 
+  // In bytes, which for a bound of 1 says the same as in characters.
+  static std::size_t length(const Json& text) { return text.get_ref<const std::string&>().size(); }
+
+  static bool matches(const Json& text, const Json& pattern) {
+    return std::regex_search(text.get_ref<const std::string&>(), std::regex(pattern.get<std::string>()));
+  }
+
   static bool is_unique(const Json& list) {
     for (auto item = list.begin(); item != list.end(); ++item) {
       if (std::find(std::next(item), list.end(), *item) != list.end()) return false;
@@ -116,13 +153,8 @@ class JsonSchema {
                        [&](const auto& item) { return properties.contains(item.key()); });
   }
 
-  const Json& resolve(const std::string& reference) const {
-    if (reference.empty() || reference[0] != '#')
-      throw std::logic_error("not a local reference: " + reference);
-    return root_.at(Json::json_pointer(reference.substr(1)));
-  }
-
   Json root_;
+  std::map<std::string, JsonSchema> others_;
 };
 
 }  // namespace brdfit::tests

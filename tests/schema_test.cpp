@@ -1,0 +1,352 @@
+// docs/schema: every file that the program writes is valid, and a member that is wrong is refused.
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include "data/synthetic/generate.h"
+#include "data/synthetic/random_material.h"
+#include "tests/json_schema.h"
+#include "tests/program.h"
+#include "tests/temp_folder.h"
+
+namespace brdfit {
+namespace {
+
+using io::Json;
+using synthetic::Recipe;
+using tests::JsonSchema;
+
+const std::filesystem::path kSource = BRDFIT_SOURCE_DIR;
+
+JsonSchema material_schema() {
+  return JsonSchema(io::read_json(kSource / "docs/schema/material.schema.json"));
+}
+
+JsonSchema recipe_schema() {
+  return JsonSchema(io::read_json(kSource / "docs/schema/recipe.schema.json"),
+                    {{"material.schema.json", material_schema()}});
+}
+
+// The places of all members of objects in a document, those in lists too.
+void list_members(const Json& value, const Json::json_pointer& place,
+                  std::vector<Json::json_pointer>& found) {
+  if (!value.is_structured()) return;
+  for (const auto& [key, member] : value.items()) {
+    const Json::json_pointer at = value.is_array() ? place / std::stoul(key) : place / key;
+    if (value.is_object()) found.push_back(at);
+    list_members(member, at, found);
+  }
+}
+
+std::vector<Json::json_pointer> members_of(const Json& document) {
+  std::vector<Json::json_pointer> found;
+  list_members(document, Json::json_pointer(), found);
+  return found;
+}
+
+Json without(Json document, const Json::json_pointer& member) {
+  document[member.parent_pointer()].erase(member.back());
+  return document;
+}
+
+Json renamed(const Json& document, const Json::json_pointer& member) {
+  Json result = without(document, member);
+  result[member.parent_pointer() / (member.back() + "_")] = document[member];
+  return result;
+}
+
+Json nulled(Json document, const Json::json_pointer& member) {
+  document[member] = nullptr;
+  return document;
+}
+
+Json with_sibling(Json document, const Json::json_pointer& member) {
+  document[member.parent_pointer()]["extra"] = 1;
+  return document;
+}
+
+// No object of the document takes a member of another name, and no member may be null.
+void expect_all_members_are_described(const JsonSchema& schema, const Json& document) {
+  for (const Json::json_pointer& member : members_of(document)) {
+    EXPECT_NE(schema.complaint(renamed(document, member)), "") << member;
+    EXPECT_NE(schema.complaint(nulled(document, member)), "") << member;
+    EXPECT_NE(schema.complaint(with_sibling(document, member)), "") << member;
+  }
+}
+
+// No number of the document may be anything: -1000 is below the range of all.
+void expect_all_numbers_are_bounded(const JsonSchema& schema, const Json& document) {
+  const Json leaves = document.flatten();
+  for (const auto& [place, leaf] : leaves.items()) {
+    if (!leaf.is_number()) continue;
+    Json json = document;
+    json[Json::json_pointer(place)] = -1000;
+    EXPECT_NE(schema.complaint(json), "") << place;
+  }
+}
+
+// What complaint there is about a document when one place is set to a value.
+std::string complaint_with(const JsonSchema& schema, Json document, const std::string& place,
+                           const Json& value) {
+  document[Json::json_pointer(place)] = value;
+  return schema.complaint(document);
+}
+
+Recipe small_recipe(Model model) {
+  Recipe recipe;
+  recipe.name = name_of(model);
+  recipe.material = synthetic::random_material(model, Tier::kFull, effects_of(model), {}, 3);
+  recipe.grid = {20, 20, 24, CellAnchor::kLowerEdge};
+  return recipe;
+}
+
+// Recipes at the ends of their ranges, and materials with options that are not the defaults.
+std::vector<Recipe> odd_recipes() {
+  std::vector<Recipe> recipes;
+  for (const Model model : all_models()) {
+    Recipe least = small_recipe(model);
+    least.material = Material(model);
+    least.grid = {1, 1, 1, CellAnchor::kCentre};
+    least.invalid = {0.0, 0, 1, 0.001};
+    least.seed = 0;
+    Recipe most = small_recipe(model);
+    most.source = "\"quoted\", \u00e9\n";
+    most.material.set_effects(effects_of(model));
+    most.material.options() = {Masking::kCorrelated, BurleyG::k2017, Diffuse::kProxima};
+    most.grid.n_phi_d = Recipe::kMaxDimension;
+    most.noise = {1.0, 1000.0};
+    most.invalid = {1.0 - 0x1p-53, 1000, 64, 90.0};
+    most.seed = std::numeric_limits<std::uint64_t>::max();
+    recipes.insert(recipes.end(), {least, most});
+  }
+  return recipes;
+}
+
+TEST(RecipeSchema, EveryShippedRecipeIsValid) {
+  const JsonSchema schema = recipe_schema();
+  int recipes = 0;
+  for (const auto& entry : std::filesystem::directory_iterator(kSource / "data/synthetic/recipes")) {
+    EXPECT_EQ(schema.complaint(io::read_json(entry.path())), "") << entry.path();
+    ++recipes;
+  }
+  EXPECT_GE(recipes, 20);
+}
+
+TEST(RecipeSchema, EveryRecipeThatIsWrittenIsValidWithNoMemberLeftUndescribed) {
+  const JsonSchema schema = recipe_schema();
+  const tests::TempFolder folder;
+  for (const Recipe& recipe : odd_recipes()) {
+    synthetic::write_recipe(folder / "odd.json", recipe);
+    const Json written = io::read_json(folder / "odd.json");
+    EXPECT_EQ(schema.complaint(written), "") << written;
+    expect_all_members_are_described(schema, written);
+    expect_all_numbers_are_bounded(schema, written);
+  }
+}
+
+bool is_read(const Json& recipe) {
+  try {
+    synthetic::recipe_from_json(recipe, "r.json");
+    return true;
+  } catch (const io::IoError&) {
+    return false;
+  }
+}
+
+TEST(RecipeSchema, AllowsToLeaveOutWhatTheReaderDoes) {
+  const JsonSchema schema = recipe_schema();
+  const Json sound = Json::parse(synthetic::recipe_to_json(small_recipe(Model::kCallisto)).dump());
+  for (const Json::json_pointer& member : members_of(sound)) {
+    const Json json = without(sound, member);
+    EXPECT_EQ(schema.complaint(json).empty(), is_read(json)) << member;
+  }
+}
+
+TEST(RecipeSchema, RefusesWhatTheReaderRefuses) {
+  const JsonSchema schema = recipe_schema();
+  const Json sound = Json::parse(synthetic::recipe_to_json(small_recipe(Model::kBurley)).dump());
+  ASSERT_TRUE(is_read(sound));
+  EXPECT_NE(schema.complaint(Json::array()), "");
+  const Json changes = Json::parse(R"([
+    {"brdfit_recipe": 2}, {"name": ""}, {"name": 3}, {"source": []}, {"material": "blue"}, {"extra": 1},
+    {"material": {"model": "phong"}}, {"material": {"parameters": {"roughness": 0}}},
+    {"grid": 90}, {"grid": {"theta_h": 0}}, {"grid": {"theta_h": 4097}}, {"grid": {"theta_d": 0}},
+    {"grid": {"theta_d": 4097}}, {"grid": {"phi_d": 0}}, {"grid": {"phi_d": 4097}}, {"grid": {"phi_d": 1.5}},
+    {"grid": {"anchor": "middle"}}, {"grid": {"theta": 1}},
+    {"noise": {"multiplicative": -0.1}}, {"noise": {"multiplicative": 1.1}}, {"noise": {"additive": 1001}},
+    {"invalid": {"fraction": 1}}, {"invalid": {"fraction": -0.1}}, {"invalid": {"blocks": 1001}},
+    {"invalid": {"block_cells": 0}}, {"invalid": {"block_cells": 65}},
+    {"invalid": {"max_theta_deg": 0}}, {"invalid": {"max_theta_deg": 91}},
+    {"seed": -1}, {"seed": 0.5}, {"seed": "1"}
+  ])");
+  for (const Json& change : changes) {
+    Json json = sound;
+    json.merge_patch(change);
+    EXPECT_FALSE(is_read(json)) << change;
+    EXPECT_NE(schema.complaint(json), "") << change;
+  }
+}
+
+// A folder with a small table, and the materials that the program fits to it.
+class FitSchema : public testing::Test {
+ protected:
+  FitSchema() { synthetic::generate(small_recipe(Model::kCallisto), folder_ / "small.binary"); }
+
+  std::string quoted(const std::string& name) const { return "'" + (folder_ / name).string() + "'"; }
+
+  // The material files of one run, which must succeed.
+  std::vector<Json> fit(const std::string& options, const std::string& table = "small.binary") {
+    std::filesystem::remove_all(folder_ / "fits");
+    std::filesystem::create_directories(folder_ / "streams");
+    const tests::ProgramResult result = tests::run_brdfit(
+        "fit " + quoted(table) + " -q --threads 2 -o " + quoted("fits") + " " + options, folder_ / "streams");
+    EXPECT_EQ(result.exit_code, 0) << options << "\n" << result.err;
+    std::vector<Json> written;
+    if (result.exit_code != 0) return written;
+    for (const auto& entry : std::filesystem::directory_iterator(folder_ / "fits")) {
+      written.push_back(io::read_json(entry.path()));
+    }
+    return written;
+  }
+
+  // One file for each model that is asked for, all of them valid.
+  void expect_valid(const std::string& options, std::size_t models,
+                    const std::string& table = "small.binary") {
+    const std::vector<Json> written = fit(options, table);
+    EXPECT_EQ(written.size(), models) << options;
+    for (const Json& material : written) {
+      EXPECT_TRUE(material.contains("fit")) << options;
+      EXPECT_EQ(schema_.complaint(material), "") << options << "\n" << material.dump(2);
+    }
+  }
+
+  tests::TempFolder folder_;
+  const JsonSchema schema_ = material_schema();
+};
+
+TEST_F(FitSchema, WhatIsWrittenIsValidForEveryChoiceOfSamples) {
+  expect_valid("--samples 500", 3);
+  expect_valid("--samples all", 3);
+  expect_valid("--on slices --phi-d 0,90", 3);
+  expect_valid("--samples 500 --max-theta 70 --cell centre --starts 2 --seed 18446744073709551615", 3);
+}
+
+TEST_F(FitSchema, WhatIsWrittenIsValidForEveryChoiceOfModel) {
+  expect_valid("--samples 500 --effects none", 3);
+  expect_valid("--samples 500 --effects sheen,dual_specular", 3);
+  expect_valid("--samples 500 --masking correlated --diffuse proxima --burley-g 2017", 3);
+  for (const char* tier : {"base", "advanced"}) {
+    expect_valid("--samples 500 --tier " + std::string(tier), 3);
+  }
+  for (const char* loss : {"cube-root", "linear", "srgb", "slice"}) {
+    expect_valid("--samples 500 --model lambert-ggx --loss " + std::string(loss), 1);
+  }
+}
+
+TEST_F(FitSchema, WhatIsWrittenIsValidWithFixedParameters) {
+  expect_valid("--samples 500 --fix roughness=0.3 --fix base_color=0.1,0.2,0.3", 3);
+  // An intensity whose tint is fixed, by one number for three channels; a tint whose intensity is.
+  expect_valid(
+      "--samples 500 --model callisto --fix diffuse_fresnel_tint=1 --fix retroreflection=2 "
+      "--fix smooth_terminator=-0.5",
+      1);
+  const std::string all = "--fix base_color=0.1,0.2,0.3 --fix metallic=0 --fix specular=0.5";
+  expect_valid("--samples 500 --model lambert-ggx --fix roughness=0.3 " + all, 1);
+}
+
+TEST_F(FitSchema, WhatIsWrittenIsValidWithAStartingMaterial) {
+  ASSERT_EQ(fit("--samples 500 --model callisto").size(), 1U);
+  std::filesystem::copy(folder_ / "fits/small.callisto.json", folder_ / "init.json");
+  expect_valid("--samples 500 --model callisto --init " + quoted("init.json"), 1);
+}
+
+TEST_F(FitSchema, WhatIsWrittenIsValidForATableWithNotANumberReadLeniently) {
+  std::string bytes = tests::read_text(folder_ / "small.binary");
+  const double nan = std::numeric_limits<double>::quiet_NaN();
+  std::copy_n(reinterpret_cast<const char*>(&nan), sizeof nan, bytes.begin() + 12);
+  tests::write_text(folder_ / "nan.binary", bytes);
+  expect_valid("--samples 500 --lenient", 3, "nan.binary");
+}
+
+TEST_F(FitSchema, NoMemberOfWhatIsWrittenIsLeftUndescribed) {
+  for (const char* options :
+       {"--samples 500", "--on slices --model burley --fix sheen=0.5 --fix base_color=0.2 --lenient"}) {
+    for (const Json& material : fit(options)) {
+      expect_all_members_are_described(schema_, material);
+      expect_all_numbers_are_bounded(schema_, material);
+    }
+  }
+}
+
+TEST_F(FitSchema, OnlyWhatIsWrittenForSomeOptionsAloneMayBeMissingFromTheEvidence) {
+  for (const Json& material : fit("--samples 500 --fix roughness=0.3 --lenient")) {
+    std::vector<std::string> optional;
+    for (const Json::json_pointer& member : members_of(material["fit"])) {
+      const Json::json_pointer place = Json::json_pointer("/fit") / member;
+      if (schema_.complaint(without(material, place)).empty()) optional.push_back(member.to_string());
+    }
+    EXPECT_THAT(optional, testing::UnorderedElementsAre("/input/non_finite_values", "/options/fixed"));
+  }
+}
+
+TEST_F(FitSchema, WrongValuesInTheEvidenceAreRefused) {
+  const std::vector<Json> written = fit("--samples 500 --model callisto --fix roughness=0.3");
+  ASSERT_EQ(written.size(), 1U);
+  const Json wrong = Json::parse(R"([
+    ["/version", "one"], ["/input/name", ""], ["/input/sha256", "12ab"], ["/input/cell", "middle"],
+    ["/options/tier", "best"], ["/options/on", "slices"], ["/options/samples", 0],
+    ["/options/samples", "most"], ["/options/phi_d_deg", [90]], ["/options/max_theta_deg", 0], ["/options/max_theta_deg", 91],
+    ["/options/loss", "L2"], ["/options/starts", -1], ["/options/seed", -1], ["/options/fixed", {}],
+    ["/options/fixed/roughness", [2]], ["/options/fixed/metallic", [0, 0, 0]],
+    ["/options/fixed/base_color", [0, 0]], ["/options/fixed/sheen", [0]], ["/options/init", "yes"],
+    ["/observations", 0], ["/weights", ""], ["/cost", -1], ["/searched", 0], ["/iterations", 0.5],
+    ["/converged", "yes"], ["/termination", "done"], ["/slice/log_ratio_pct", -1], ["/table/srgb", 1.5], ["/slice/slice_pct", 101],
+    ["/table/cells", -1], ["/reciprocity_gap_pct", -1], ["/parameters/roughness/value", 2],
+    ["/parameters/metallic/status", "fine"], ["/parameters/metallic/channel_status", ["ok", "ok", "ok"]],
+    ["/parameters/base_color/value", [0, 0]], ["/parameters/base_color/status", "fixed"],
+    ["/parameters/base_color/channel_status", ["ok", "ok", "fixed"]],
+    ["/parameters/sheen", {"value": 0, "status": "ok"}],
+    ["/correlated", [{"first": "base_color.r", "second": "metallic", "correlation": 1.5}]],
+    ["/correlated", [{"first": "base_color.x", "second": "metallic", "correlation": 0.99}]],
+    ["/correlated", [{"first": "metallic", "second": "a b", "correlation": -0.99}]],
+    ["/correlated", [{"first": "metallic", "second": "specular", "correlation": -1.5}]],
+    ["/correlated", [{"first": "metallic", "second": "specular"}]], ["/correlated", ["metallic"]],
+    ["/correlated", [{"first": "metallic", "second": "specular", "correlation": 0.99, "extra": 1}]],
+    ["/options/fixed/metallic", []], ["/options/fixed/base_color", []],
+    ["/options/fixed/base_color", [0, 0, 0, 0]], ["/parameters/base_color/channel_status", ["ok", "ok"]],
+    ["/parameters/base_color/channel_status", ["ok", "ok", "ok", "ok"]], ["/notes", [1]],
+    ["/notes", [""]], ["/timings_seconds/fit", -1]
+  ])");
+  for (const Json& change : wrong) {
+    const std::string place = "/fit" + change[0].get<std::string>();
+    EXPECT_NE(complaint_with(schema_, written[0], place, change[1]), "") << change;
+  }
+  // Sound values in the same places pass.
+  const Json sound = Json::parse(R"([
+    ["/options/samples", "all"], ["/options/fixed/metallic", [0]], ["/options/fixed/base_color", [0, 0, 0]],
+    ["/correlated", [{"first": "base_color.r", "second": "metallic", "correlation": -0.99}]]
+  ])");
+  for (const Json& change : sound) {
+    const std::string place = "/fit" + change[0].get<std::string>();
+    EXPECT_EQ(complaint_with(schema_, written[0], place, change[1]), "") << change;
+  }
+}
+
+TEST_F(FitSchema, WrongSlicesInTheEvidenceAreRefused) {
+  const std::vector<Json> written = fit("--on slices --phi-d 45,90 --model lambert-ggx");
+  ASSERT_EQ(written.size(), 1U);
+  const std::string place = "/fit/options/phi_d_deg";
+  EXPECT_EQ(complaint_with(schema_, written[0], place, {0, 179.9}), "");
+  for (const Json& angles : Json::parse(R"([[], [180], [-1], ["90"], 90])")) {
+    EXPECT_NE(complaint_with(schema_, written[0], place, angles), "") << angles;
+  }
+  EXPECT_NE(schema_.complaint(without(written[0], Json::json_pointer(place))), "");
+  EXPECT_NE(complaint_with(schema_, written[0], "/fit/options/samples", 500), "");
+}
+
+}  // namespace
+}  // namespace brdfit
