@@ -11,11 +11,18 @@ namespace brdfit::fit {
 namespace {
 
 // A short trust region at first keeps a start in its own valley; the tolerances are those of a search.
-constexpr SolveOptions kStage = {4, 1e-3, 1e-10, 1e-8, 1.0};
-constexpr SolveOptions kJoint = {15, 1e-5, 1e-10, 1e-8, 1.0};
-constexpr SolveOptions kPolish = {60, 1e-7, 1e-12, 1e-9, 1.0};
-constexpr std::size_t kParents = 3;   // that are kicked in a round
+constexpr double kFirstRadius = 100.0;
+constexpr SolveOptions kStage = {4, 1e-3, 1e-10, 1e-8, kFirstRadius};
+constexpr SolveOptions kJoint = {20, 1e-5, 1e-10, 1e-8, kFirstRadius};
+constexpr SolveOptions kPolish = {60, 1e-7, 1e-12, 1e-9, kFirstRadius};
+constexpr std::size_t kParents = 4;   // that are kicked in a round
 constexpr std::size_t kPolished = 4;  // of the candidates in the end
+// Candidates whose costs differ by less than this share are taken for the same minimum.
+constexpr double kSameValley = 0.01;
+// Rounds of kicks, and how many stages it takes for all of them: with fewer there is less to kick, and a kick
+// of everything would be a start.
+constexpr int kKickRounds = 6;
+constexpr int kAllStages = 5;
 
 // Products of one sign stay on the side where they begin.
 Box box_for(const Parametrisation& parametrisation, const std::vector<double>& x) {
@@ -75,11 +82,37 @@ void sort_best_first(std::vector<Candidate>& candidates) {
   std::ranges::stable_sort(candidates, {}, [](const Candidate& c) { return c.solution.cost; });
 }
 
+// What a kick draws anew: the parameters of one stage, or of the diffuse gains and what follows them, as
+// two gains that share a region are often wrong together.
+std::vector<std::vector<std::size_t>> kick_groups(const std::vector<std::vector<std::size_t>>& stages) {
+  std::vector<std::vector<std::size_t>> groups = stages;
+  if (stages.size() < 3) return groups;
+  std::vector<std::size_t> shape;
+  for (std::size_t k = 2; k < stages.size(); ++k)
+    shape.insert(shape.end(), stages[k].begin(), stages[k].end());
+  groups.push_back(shape);
+  return groups;
+}
+
+// The best candidates of different cost, at most count of them: others are mostly the same minimum found
+// twice.
+std::vector<std::size_t> distinct_costs(const std::vector<Candidate>& candidates, std::size_t count,
+                                        double relative_difference) {
+  std::vector<std::size_t> picked;
+  for (std::size_t k = 0; k < candidates.size() && picked.size() < count; ++k) {
+    const double cost = candidates[k].solution.cost;
+    if (picked.empty() || cost > candidates[picked.back()].solution.cost * (1.0 + relative_difference)) {
+      picked.push_back(k);
+    }
+  }
+  return picked;
+}
+
 // Brings the best candidates to the bottom of their valleys, so that they can be told apart.
 void polish(const Problem& problem, std::vector<Candidate>& candidates) {
-  const std::size_t count = std::min(kPolished, candidates.size());
-  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t k) {
-    Candidate& candidate = candidates[k];
+  const std::vector<std::size_t> picked = distinct_costs(candidates, kPolished, kSameValley);
+  tbb::parallel_for(std::size_t{0}, picked.size(), [&](std::size_t k) {
+    Candidate& candidate = candidates[picked[k]];
     const int evaluations = candidate.solution.evaluations;
     candidate.solution = solve_pinning(problem, candidate.solution.x, candidate.box, kPolish);
     candidate.solution.evaluations += evaluations;
@@ -95,10 +128,10 @@ std::vector<Candidate> explore(const Problem& problem, const Problem& wide, cons
   const std::vector<std::vector<std::size_t>> stages = staging(parametrisation);
   const std::size_t parents =
       std::min<std::size_t>(kParents, static_cast<std::size_t>(options.starts) + seeds.size());
-  const std::size_t kicks_a_round = parents * stages.size();
+  const std::vector<std::vector<std::size_t>> groups = kick_groups(stages);
+  const std::size_t kicks_a_round = parents * groups.size();
   const std::size_t starts = static_cast<std::size_t>(options.starts);
-  // With fewer stages there is less to kick; a kick of everything would be a start.
-  const int rounds = std::min(options.kick_rounds, static_cast<int>(stages.size()) - 1);
+  const int rounds = kKickRounds * (static_cast<int>(stages.size()) - 1) / (kAllStages - 1);
   const std::vector<std::vector<double>> points = make_starts(
       parametrisation, samples, options.starts + rounds * static_cast<int>(kicks_a_round), options.seed);
   std::vector<Candidate> candidates(seeds.size() + starts);
@@ -108,10 +141,11 @@ std::vector<Candidate> explore(const Problem& problem, const Problem& wide, cons
   sort_best_first(candidates);
   for (int round = 0; round < rounds; ++round) {
     std::vector<Candidate> next(kicks_a_round);
+    const std::vector<std::size_t> parent = distinct_costs(candidates, parents, kSameValley);
     const std::size_t first_point = starts + static_cast<std::size_t>(round) * kicks_a_round;
     tbb::parallel_for(std::size_t{0}, kicks_a_round, [&](std::size_t k) {
-      next[k] =
-          kicked(wide, candidates[k / stages.size()], stages[k % stages.size()], points[first_point + k]);
+      next[k] = kicked(wide, candidates[parent[k / groups.size() % parent.size()]], groups[k % groups.size()],
+                       points[first_point + k]);
     });
     candidates.insert(candidates.end(), std::make_move_iterator(next.begin()),
                       std::make_move_iterator(next.end()));

@@ -1,4 +1,7 @@
-// The cheap search before the published solve: many starts on a part of the samples.
+// The cheap search before the published solve, on a part of the samples: many starts, then rounds of kicks,
+// in which one group of parameters of the best candidates is drawn anew and everything is solved again. A
+// local minimum mostly has one term in the wrong role (a highlight as retroreflection, say), which a kick
+// mends more cheaply than a start.
 #ifndef BRDFIT_FIT_EXPLORE_H_
 #define BRDFIT_FIT_EXPLORE_H_
 
@@ -19,9 +22,6 @@ struct Candidate {
 struct ExploreOptions {
   int starts = 12;
   std::uint64_t seed = 1;
-  // Rounds in which one group of parameters of the best candidates is drawn anew and everything is solved
-  // again: a local minimum mostly has one term in the wrong role (a highlight as retroreflection, say).
-  int kick_rounds = 4;
 };
 
 // All candidates, best first; the best few stand at minima of `problem`. wide: the same problem with

@@ -10,7 +10,6 @@
 #include <stdexcept>
 
 #include "brdf/albedo.h"
-#include "brdf/models.h"
 #include "fit/explore.h"
 #include "fit/metallic.h"
 #include "fit/problem.h"
@@ -21,7 +20,7 @@ namespace {
 
 // Exploration looks at a thinned part of the observations: about this many. Fewer lose minima, more only cost
 // time.
-constexpr std::size_t kExplored = 2400;
+constexpr std::size_t kExplored = 1600;
 // How much wider the squares of a robust loss reach while searching.
 constexpr double kWidening = 3.0;
 constexpr std::size_t kRefined = 2;  // starts that are refined on all samples
@@ -56,11 +55,9 @@ Material start_material(const FitOptions& options) {
   return material;
 }
 
-SampleSet draw_samples(const MeasuredTable& table, const FitOptions& options, const Material& material) {
+SampleSet draw_samples(const MeasuredTable& table, const FitOptions& options) {
   SamplingOptions sampling;
   sampling.max_theta_deg = options.max_theta_deg;
-  // A reciprocal material says the same of both orders of a cell.
-  sampling.both_orders = !is_reciprocal(material);
   SampleSet samples = options.on == FitOn::kTable
                           ? sample_table(table, options.samples, options.seed, sampling)
                           : sample_slices(table, options.phi_d_deg, sampling);
@@ -108,7 +105,7 @@ class Fitter {
         options_(options),
         parametrisation_(make_parametrisation(start_material(options),
                                               {options.tier, effects_to_fit(options), options.fixed})),
-        data_(draw_samples(table, options, parametrisation_.start), options.loss),
+        data_(draw_samples(table, options), options.loss),
         on_part_(parametrisation_, data_.part, data_.part_targets, options.loss),
         on_part_wide_(parametrisation_, data_.part, data_.part_wide_targets, options.loss),
         on_all_(parametrisation_, data_.all, data_.all_targets, options.loss) {}

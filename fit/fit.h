@@ -59,7 +59,7 @@ struct FitTimings {
 struct FitResult {
   Material material;
   FitOptions options;
-  std::size_t observations = 0;  // residuals per channel: a cell may be two, (wi, wo) and (wo, wi)
+  std::size_t observations = 0;  // cells that were fitted
   double cost = 0.0;             // half of the weighted mean square of the residuals, summed over channels
   int starts = 0;
   int starts_near_best = 0;  // that ended within 5% of the best cost

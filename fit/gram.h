@@ -32,6 +32,9 @@ struct GramJob {
   const double* target[3] = {};
   std::size_t count = 0;  // a multiple of simd::kBlock
   int loss = 0;           // as fit::Loss
+  // f of a sample is the mean of f(wi, wo) and f(wo, wi), as a stored cell is; needed where a material is not
+  // reciprocal and cos_i differs from cos_o.
+  bool mean_of_orders = false;
   double robust_width = 0.0;
   double clipped_width = 0.0;
   const double* clipped_share = nullptr;

@@ -237,10 +237,21 @@ HWY_INLINE Counted count(const GramJob& job, int c, std::size_t at, V y, V cos_i
   return {slope, (weight * main.slope * r + clipped_factor * u) / slope, cost};
 }
 
-template <class ModelRows>
+// The same pair with the directions exchanged. Only their cosines differ in isotropic columns.
+HWY_INLINE kernel::Geometry<V> swapped(const kernel::Geometry<V>& g) {
+  kernel::Geometry<V> s = g;
+  s.cos_i = g.cos_o;
+  s.cos_o = g.cos_i;
+  return s;
+}
+
+// kMean: f is the mean of f(wi, wo) and f(wo, wi), which is what a cell holds; for materials that are
+// reciprocal the second is the first.
+template <class ModelRows, bool kMean>
 HWY_FLATTEN void gram_of(const GramJob& job, Gram& gram) {
   constexpr int n = ModelRows::coefficients;
   ModelRows model(job.coefficients);
+  ModelRows other(job.coefficients);
   alignas(64) BlockRows<n + 1> blocks[3];
   Products<n + 1> products[3];
   for (auto& channel : products) channel.clear();
@@ -249,17 +260,31 @@ HWY_FLATTEN void gram_of(const GramJob& job, Gram& gram) {
     const std::size_t length = job.count - first < kRowLength ? job.count - first : kRowLength;
     for (std::size_t at = 0; at < length; at += V::size) {
       const kernel::Geometry<V> g = load_geometry(job.geometry, first + at);
-      model.prepare(g, load_logs(job.geometry, first + at));
+      const kernel::GeometryLogs<V> logs = load_logs(job.geometry, first + at);
+      model.prepare(g, logs);
+      if constexpr (kMean) other.prepare(swapped(g), logs);
       const V weight = V::load(job.sqrt_weight + first + at);
       const V inverse_cos_i = V(1.0) / g.cos_i;
+      // Turns f(wo, wi) cos_o into f(wo, wi) cos_i.
+      const V to_cos_i = kMean ? g.cos_i / g.cos_o : V(1.0);
       // All channels first: what one waits for, roots and quotients, overlaps with the others.
       Counted counted[3];
       for (int c = 0; c < 3; ++c) {
-        counted[c] = count(job, c, first + at, model.y(c), g.cos_i, inverse_cos_i);
+        V y = model.y(c);
+        if constexpr (kMean) y = V(0.5) * (y + other.y(c) * to_cos_i);
+        counted[c] = count(job, c, first + at, y, g.cos_i, inverse_cos_i);
       }
       for (int c = 0; c < 3; ++c) {
         V dy[n];
-        model.derivatives(c, weight * counted[c].slope, dy);
+        const V slope = weight * counted[c].slope;
+        if constexpr (kMean) {
+          V dy_other[n];
+          model.derivatives(c, V(0.5) * slope, dy);
+          other.derivatives(c, V(0.5) * slope * to_cos_i, dy_other);
+          for (int k = 0; k < n; ++k) dy[k] = dy[k] + dy_other[k];
+        } else {
+          model.derivatives(c, slope, dy);
+        }
         for (int k = 0; k < n; ++k) dy[k].store(blocks[c][k] + at);
         (weight * counted[c].residual).store(blocks[c][n] + at);
         total = multiply_add(weight * weight, counted[c].cost, total);
@@ -275,17 +300,23 @@ HWY_FLATTEN void gram_of(const GramJob& job, Gram& gram) {
   gram.cost = sum(total);
 }
 
-template <class ModelLanes>
+template <class ModelLanes, bool kMean>
 HWY_FLATTEN double cost_of(const GramJob& job) {
   const ModelLanes model(job.coefficients);
   V total(0.0);
   for (std::size_t at = 0; at < job.count; at += V::size) {
     const kernel::Geometry<V> g = load_geometry(job.geometry, at);
-    const auto terms = model.terms(g, load_logs(job.geometry, at));
+    const kernel::GeometryLogs<V> logs = load_logs(job.geometry, at);
+    const auto terms = model.terms(g, logs);
+    auto other_terms = terms;
+    if constexpr (kMean) other_terms = model.terms(swapped(g), logs);
+    const V to_cos_i = kMean ? g.cos_i / g.cos_o : V(1.0);
     const V weight = V::load(job.sqrt_weight + at);
     const V inverse_cos_i = V(1.0) / g.cos_i;
     for (int c = 0; c < 3; ++c) {
-      const Counted counted = count(job, c, at, model.combine(c, terms), g.cos_i, inverse_cos_i);
+      V y = model.combine(c, terms);
+      if constexpr (kMean) y = V(0.5) * (y + model.combine(c, other_terms) * to_cos_i);
+      const Counted counted = count(job, c, at, y, g.cos_i, inverse_cos_i);
       total = multiply_add(weight * weight, counted.cost, total);
     }
   }
@@ -298,15 +329,22 @@ void accumulate_gram(const GramJob& job, Gram& gram) {
   for (auto& channel : gram.channel) {
     for (double& entry : channel) entry = 0.0;
   }
-  if (job.coefficients.model == 0) return gram_of<LambertGgxRows>(job, gram);
-  if (job.coefficients.model == 1) return gram_of<BurleyRows>(job, gram);
-  gram_of<CallistoRows>(job, gram);
+  // Burley is reciprocal; the others may be asked for the mean of both orders.
+  if (job.coefficients.model == 1) return gram_of<BurleyRows, false>(job, gram);
+  if (job.coefficients.model == 0) {
+    return job.mean_of_orders ? gram_of<LambertGgxRows, true>(job, gram)
+                              : gram_of<LambertGgxRows, false>(job, gram);
+  }
+  return job.mean_of_orders ? gram_of<CallistoRows, true>(job, gram)
+                            : gram_of<CallistoRows, false>(job, gram);
 }
 
 double evaluate_cost(const GramJob& job) {
-  if (job.coefficients.model == 0) return cost_of<LambertGgxLanes>(job);
-  if (job.coefficients.model == 1) return cost_of<BurleyLanes>(job);
-  return cost_of<CallistoLanes>(job);
+  if (job.coefficients.model == 1) return cost_of<BurleyLanes, false>(job);
+  if (job.coefficients.model == 0) {
+    return job.mean_of_orders ? cost_of<LambertGgxLanes, true>(job) : cost_of<LambertGgxLanes, false>(job);
+  }
+  return job.mean_of_orders ? cost_of<CallistoLanes, true>(job) : cost_of<CallistoLanes, false>(job);
 }
 
 }  // namespace brdfit::simd::BRDFIT_SIMD_ISA

@@ -8,7 +8,7 @@
 namespace brdfit::fit {
 namespace {
 
-constexpr double kVisiblePart = 0.1;
+constexpr double kVisiblePart = 0.01;
 constexpr double kCorrelated = 0.95;
 
 Status bound_status(const FreeParameter& parameter, double x) {
@@ -58,7 +58,9 @@ void list_correlated(const Parametrisation& parametrisation,
       eigen.eigenvectors() * inverse.asDiagonal() * eigen.eigenvectors().transpose();
   for (Eigen::Index a = 0; a < covariance.rows(); ++a) {
     for (Eigen::Index b = a + 1; b < covariance.rows(); ++b) {
-      const double correlation = covariance(a, b) / std::sqrt(covariance(a, a) * covariance(b, b));
+      // Rounding may take it beyond 1.
+      const double correlation =
+          std::clamp(covariance(a, b) / std::sqrt(covariance(a, a) * covariance(b, b)), -1.0, 1.0);
       if (!(std::abs(correlation) > kCorrelated)) continue;
       const auto name = [&](Eigen::Index k) {
         return parametrisation.free[static_cast<std::size_t>(inside[static_cast<std::size_t>(k)])].name;

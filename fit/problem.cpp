@@ -11,6 +11,7 @@
 #include <numeric>
 
 #include "brdf/coefficients.h"
+#include "brdf/models.h"
 
 namespace brdfit::simd {
 
@@ -208,6 +209,7 @@ GramJob Problem::job_at(std::span<const double> x) const {
   }
   job.count = samples_.padded_size();
   job.loss = static_cast<int>(loss_);
+  job.mean_of_orders = samples_.has_two_orders() && !is_reciprocal(material);
   job.robust_width = targets_.robust_width;
   job.clipped_width = targets_.clipped_width;
   job.clipped_share = targets_.clipped_share.data();

@@ -12,18 +12,6 @@
 namespace brdfit {
 namespace {
 
-void add_cell(SampleSet& samples, const CellGeometry& geometry, const Rgb& f, double weight,
-              bool both_orders) {
-  if (!both_orders || std::abs(geometry.cos_i - geometry.cos_o) < 1e-12) {
-    samples.add(geometry, f, weight);
-    return;
-  }
-  CellGeometry swapped = geometry;
-  std::swap(swapped.cos_i, swapped.cos_o);
-  samples.add(geometry, f, 0.5 * weight);
-  samples.add(swapped, f, 0.5 * weight);
-}
-
 // Observed cells in an order that keeps neighbours together: theta_h rows, bands of theta_d, then phi_d.
 class OrderedCells {
  public:
@@ -171,10 +159,11 @@ simd::GeometryColumns SampleSet::geometry() const {
           log_one_minus_cos_d_.data()};
 }
 
-simd::GeometryColumns SampleSet::swapped_geometry() const {
-  simd::GeometryColumns columns = geometry();
-  std::swap(columns.cos_i, columns.cos_o);
-  return columns;
+bool SampleSet::has_two_orders() const {
+  for (std::size_t k = 0; k < size_; ++k) {
+    if (std::abs(cos_i_[k] - cos_o_[k]) > 1e-12) return true;
+  }
+  return false;
 }
 
 CellGeometry SampleSet::cell(std::size_t k) const {
@@ -222,11 +211,10 @@ SampleSet sample_table(const MeasuredTable& table, std::size_t cell_count, std::
   for (const auto& [i_h, i_d, i_p] : places) f.push_back(table.value(table.grid().index(i_h, i_d, i_p)));
 
   SampleSet samples;
-  samples.reserve(options.both_orders ? 2 * count : count);
+  samples.reserve(count);
   for (std::size_t k = 0; k < count; ++k) {
     const auto& [i_h, i_d, i_p] = places[k];
-    add_cell(samples, geometry.cell(i_h, i_d, i_p), f[k], static_cast<double>(ends[k + 1] - ends[k]),
-             options.both_orders);
+    samples.add(geometry.cell(i_h, i_d, i_p), f[k], static_cast<double>(ends[k + 1] - ends[k]));
   }
   samples.finish();
   return samples;
@@ -248,7 +236,7 @@ SampleSet sample_slices(const MeasuredTable& table, std::span<const double> phi_
         if (!table.is_valid(cell)) continue;
         const CellGeometry geometry = angles.cell(i_h, i_d, i_p);
         if (std::min(geometry.cos_i, geometry.cos_o) < min_cosine) continue;
-        add_cell(samples, geometry, table.value(cell), weight, options.both_orders);
+        samples.add(geometry, table.value(cell), weight);
       }
     }
   }

@@ -19,7 +19,8 @@ namespace brdfit {
 // Observations as columns of equal length, padded to a multiple of simd::kBlock with entries of weight 0.
 class SampleSet {
  public:
-  // Adds one observation: f measured for (wi, wo), in sr^-1. Weights need not sum to 1 until finish().
+  // Adds one observation: f measured for (wi, wo) and (wo, wi), which a table does not tell apart, in sr^-1.
+  // Weights need not sum to 1 until finish().
   void add(const CellGeometry& geometry, const Rgb& f, double weight);
 
   // Makes room for that many observations in all.
@@ -30,8 +31,9 @@ class SampleSet {
 
   std::size_t size() const { return size_; }  // observations
   std::size_t padded_size() const { return cos_i_.size(); }
-  simd::GeometryColumns geometry() const;          // padded_size() entries each
-  simd::GeometryColumns swapped_geometry() const;  // the same with wi and wo exchanged
+  simd::GeometryColumns geometry() const;  // padded_size() entries each
+  // Whether (wi, wo) and (wo, wi) are different pairs in any observation: cos_i and cos_o differ.
+  bool has_two_orders() const;
   std::span<const double> cos_i() const { return cos_i_; }
   std::span<const double> cos_o() const { return cos_o_; }
   std::span<const double> cos_h() const { return cos_h_; }
@@ -56,9 +58,6 @@ class SampleSet {
 struct SamplingOptions {
   // Cells where wi or wo is further from the normal are left out. MERL is extrapolated above about 80 deg.
   double max_theta_deg = 90.0;
-  // A cell is two observations, (wi, wo) and (wo, wi) with one value. With both_orders the second is added,
-  // at half weight each, where its cosine differs; models that are reciprocal do not need it.
-  bool both_orders = true;
 };
 
 inline constexpr std::size_t kAllSamples = std::numeric_limits<std::size_t>::max();

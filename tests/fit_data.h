@@ -36,7 +36,7 @@ struct OwnedProblem {
   OwnedProblem(const MeasuredTable& table, const Material& start, const fit::FreedomOptions& options,
                fit::Loss loss = fit::Loss::kLogRatio, std::size_t cells = 3000)
       : parametrisation(fit::make_parametrisation(start, options)),
-        samples(sample_table(table, cells, 1, {90.0, false})),
+        samples(sample_table(table, cells, 1, {90.0})),
         targets(fit::make_targets(samples, loss)),
         problem(parametrisation, samples, targets, loss) {}
   OwnedProblem(const OwnedProblem&) = delete;

@@ -66,6 +66,18 @@ double robust_weight(double r, double width) {
   return width == 0.0 ? 1.0 : 1 / std::hypot(1.0, r / width);
 }
 
+// What a measured value is compared with: f(wi, wo), or its mean with f(wo, wi).
+enum class Orders { kOne, kMean };
+
+// f cos_i.
+Rgb expected_value(const Material& material, const DirectionPair& pair, Orders orders) {
+  if (orders == Orders::kOne) return eval_cos(material, pair.wi, pair.wo);
+  Rgb y = eval(material, pair.wi, pair.wo);
+  const Rgb back = eval(material, pair.wo, pair.wi);
+  for (std::size_t c = 0; c < 3; ++c) y[c] = 0.5 * (y[c] + back[c]) * pair.wi.z;
+  return y;
+}
+
 // Observations with their directions, so that brdf/models.h can be asked about them.
 struct Observed {
   SampleSet samples;
@@ -84,7 +96,8 @@ Observed observe(const Material& material, std::size_t count, Random& random) {
     const HalfDiff angles = {uniform(random, 0, 1.55), uniform(random, 0, 1.55), uniform(random, 0, 3.14)};
     const DirectionPair pair = directions_from_half_diff(angles);
     if (pair.wi.z < 0.01 || pair.wo.z < 0.01) continue;
-    Rgb f = eval(material, pair.wi, pair.wo);
+    Rgb f = expected_value(material, pair, Orders::kMean);
+    for (double& channel : f) channel /= pair.wi.z;
     if (is_nearly_clipped(f)) continue;
     for (double& channel : f) channel *= std::exp(uniform(random, -0.5, 0.5));
     observed.samples.add(cell_geometry(angles), f, uniform(random, 0.1, 2.0));
@@ -94,7 +107,8 @@ Observed observe(const Material& material, std::size_t count, Random& random) {
   return observed;
 }
 
-GramJob job_of(const Material& material, const SampleSet& samples, const Targets& targets, Loss loss) {
+GramJob job_of(const Material& material, const SampleSet& samples, const Targets& targets, Loss loss,
+               Orders orders) {
   GramJob job;
   job.coefficients = simd::coefficients_of(material);
   job.geometry = samples.geometry();
@@ -104,6 +118,7 @@ GramJob job_of(const Material& material, const SampleSet& samples, const Targets
     job.clipped_target[c] = targets.clipped[c].data();
   }
   job.count = samples.padded_size();
+  job.mean_of_orders = orders == Orders::kMean;
   job.loss = static_cast<int>(loss);
   job.robust_width = targets.robust_width;
   job.clipped_width = targets.clipped_width;
@@ -120,12 +135,12 @@ double expected_share(const SampleSet& samples, std::size_t k, Loss loss) {
   return shape_of(loss).clipped_share / std::sqrt(cos_h * cos_d);
 }
 
-double expected_cost(const Material& material, const Observed& observed, Loss loss) {
+double expected_cost(const Material& material, const Observed& observed, Loss loss, Orders orders) {
   const SampleSet& s = observed.samples;
   const LossShape shape = shape_of(loss);
   double cost = 0.0;
   for (std::size_t k = 0; k < s.size(); ++k) {
-    const Rgb y = eval_cos(material, observed.pairs[k].wi, observed.pairs[k].wo);
+    const Rgb y = expected_value(material, observed.pairs[k], orders);
     const double cos_i = observed.pairs[k].wi.z;
     for (std::size_t c = 0; c < 3; ++c) {
       const double measured = s.f(static_cast<int>(c))[k];
@@ -196,19 +211,21 @@ void expect_same_gram(const Eigen::MatrixXd& actual, const Eigen::MatrixXd& expe
 }
 
 // Everything that is claimed of one material, for all losses and instruction sets.
-void expect_sums(const Material& material, Random& random) {
+void expect_sums(const Material& material, Orders orders, Random& random) {
   // More than two blocks of vector code, and not a multiple of one.
   const Observed observed = observe(material, 600, random);
   const SampleSet& samples = observed.samples;
   const std::vector<double> q = product_form(material);
   std::vector<std::array<Sloped, 3>> rows;
   for (std::size_t k = 0; k < samples.size(); ++k) {
-    rows.push_back(testing_support::sloped(material, q, testing_support::geometry_of(samples, k)));
+    const kernel::Geometry<double> g = testing_support::geometry_of(samples, k);
+    rows.push_back(orders == Orders::kOne ? testing_support::sloped(material, q, g)
+                                          : testing_support::sloped_mean(material, q, g));
   }
   for (const Loss loss : all_losses()) {
     const Targets targets = make_targets(samples, loss);
-    const GramJob job = job_of(material, samples, targets, loss);
-    const double cost = expected_cost(material, observed, loss);
+    const GramJob job = job_of(material, samples, targets, loss, orders);
+    const double cost = expected_cost(material, observed, loss, orders);
     const Eigen::MatrixXd expected = expected_gram(samples, rows, loss);
     for (const simd::Isa isa : simd::available_isas()) {
       SCOPED_TRACE(testing::Message()
@@ -234,7 +251,10 @@ void expect_sums_with(Model model, const MaterialOptions& options) {
   for (unsigned index = 0; index < subsets; ++index) {
     Material material = testing_support::interior_material(model, isotropic_subset(model, index), random);
     material.options() = options;
-    expect_sums(material, random);
+    for (const Orders orders : {Orders::kOne, Orders::kMean}) {
+      if (orders == Orders::kMean && is_reciprocal(material)) continue;
+      expect_sums(material, orders, random);
+    }
     if (testing::Test::HasFatalFailure()) return;
   }
 }
@@ -271,8 +291,8 @@ TEST(GramSums, AreFiniteAtTheEndsOfTheRanges) {
       const Observed observed = observe(material, 200, random);
       for (const Loss loss : all_losses()) {
         const Targets targets = make_targets(observed.samples, loss);
-        const GramJob job = job_of(material, observed.samples, targets, loss);
-        const double cost = expected_cost(material, observed, loss);
+        const GramJob job = job_of(material, observed.samples, targets, loss, Orders::kMean);
+        const double cost = expected_cost(material, observed, loss, Orders::kMean);
         for (const simd::Isa isa : simd::available_isas()) {
           Gram gram;
           gram_function(isa)(job, gram);
@@ -291,11 +311,12 @@ TEST(GramSums, DoNotSeePadding) {
       testing_support::interior_material(Model::kCallisto, effects_of(Model::kCallisto), random);
   const Observed observed = observe(material, 65, random);
   Targets targets = make_targets(observed.samples, Loss::kLogRatio);
-  const double cost =
-      cost_function(simd::best_isa())(job_of(material, observed.samples, targets, Loss::kLogRatio));
+  const double cost = cost_function(simd::best_isa())(
+      job_of(material, observed.samples, targets, Loss::kLogRatio, Orders::kMean));
   ASSERT_EQ(targets.value[0].size(), 128U);
   for (std::size_t k = 65; k < 128; ++k) targets.value[0][k] = 1e3;
-  EXPECT_EQ(cost_function(simd::best_isa())(job_of(material, observed.samples, targets, Loss::kLogRatio)),
+  EXPECT_EQ(cost_function(simd::best_isa())(
+                job_of(material, observed.samples, targets, Loss::kLogRatio, Orders::kMean)),
             cost);
 }
 
@@ -318,7 +339,8 @@ class ProblemOf : public testing::TestWithParam<std::tuple<Model, Loss>> {
     double cost = 0.0;
     const Eigen::MatrixXd gram = problem.gram(x, &cost);
     EXPECT_NEAR(cost, problem.cost(x), 1e-13 * cost);
-    EXPECT_NEAR(cost, expected_cost(parametrisation.to_material(x), observed, loss), 1e-10 * cost);
+    EXPECT_NEAR(cost, expected_cost(parametrisation.to_material(x), observed, loss, Orders::kMean),
+                1e-10 * cost);
     EXPECT_TRUE(gram.isApprox(gram.transpose(), 1e-13));
     for (std::size_t k = 0; k < x.size(); ++k) {
       const auto at = static_cast<Eigen::Index>(k);

@@ -92,7 +92,7 @@ TEST_P(RoundTrip, OfExactTablesGivesBackEveryIdentifiableParameter) {
     options.model = model;
     const fit::FitResult result = fit::fit(table, options);
     EXPECT_LT(result.evaluation.table.log_ratio_pct, 0.01) << "cost " << result.cost;
-    const SampleSet samples = sample_table(table, options.samples, options.seed, {90.0, false});
+    const SampleSet samples = sample_table(table, options.samples, options.seed, {90.0});
     expect_parameters(result.material, recipe.material,
                       testing_support::test_identifiability(recipe.material, samples));
   }
@@ -110,7 +110,7 @@ TEST(RoundTripSet, HasAtLeastFourInFiveFreeParametersIdentifiable) {
   for (const Model model : all_models()) {
     for (std::uint64_t seed = 1; seed <= kMaterials; ++seed) {
       const synthetic::Recipe recipe = recipe_of(model, seed);
-      const SampleSet samples = sample_table(synthetic::generate_table(recipe), 20000, 1, {90.0, false});
+      const SampleSet samples = sample_table(synthetic::generate_table(recipe), 20000, 1, {90.0});
       const auto parameters = testing_support::test_identifiability(recipe.material, samples);
       free += parameters.size();
       identifiable += static_cast<std::size_t>(std::ranges::count_if(parameters, is_identifiable));
@@ -154,7 +154,7 @@ SquaredErrors errors_at(Model model, std::size_t sample_count) {
     recipe.noise.multiplicative = kNoise;
     const MeasuredTable table = synthetic::generate_table(recipe);
     const auto parameters =
-        testing_support::test_identifiability(recipe.material, sample_table(table, 4000, 99, {90.0, false}));
+        testing_support::test_identifiability(recipe.material, sample_table(table, 4000, 99, {90.0}));
     for (std::uint64_t draw = 1; draw <= 6; ++draw) {
       fit::FitOptions options;
       options.model = model;
