@@ -15,13 +15,16 @@ constexpr double kFirstRadius = 100.0;
 constexpr SolveOptions kStage = {4, 1e-3, 1e-10, 1e-8, kFirstRadius};
 constexpr SolveOptions kJoint = {20, 1e-5, 1e-10, 1e-8, kFirstRadius};
 constexpr SolveOptions kPolish = {60, 1e-7, 1e-12, 1e-9, kFirstRadius};
-constexpr std::size_t kParents = 4;   // that are kicked in a round
-constexpr std::size_t kPolished = 4;  // of the candidates in the end
+constexpr std::size_t kParents =
+    4;  // that are kicked in a round   // that are kicked in a round   // that are kicked in a round   //
+        // that are kicked in a round   // that are kicked in a round
+constexpr std::size_t kPolished =
+    6;  // of the candidates in the end  // of the candidates in the end  // of the candidates in the end
 // Candidates whose costs differ by less than this share are taken for the same minimum.
 constexpr double kSameValley = 0.01;
 // Rounds of kicks, and how many stages it takes for all of them: with fewer there is less to kick, and a kick
 // of everything would be a start.
-constexpr int kKickRounds = 6;
+constexpr int kKickRounds = 5;
 constexpr int kAllStages = 5;
 
 // Products of one sign stay on the side where they begin.

@@ -18,15 +18,16 @@
 namespace brdfit::fit {
 namespace {
 
-// Exploration looks at a thinned part of the observations: about this many. Fewer lose minima, more only cost
-// time.
-constexpr std::size_t kExplored = 1600;
+// Exploration looks at a thinned part of the observations, about this many. Fewer lose minima, more only cost
+// time. Slices need more, as a narrow highlight lies in few of their rows.
+constexpr std::size_t kExploredOfTable = 1600;
+constexpr std::size_t kExploredOfSlices = 2400;
 // How much wider the squares of a robust loss reach while searching.
 constexpr double kWidening = 3.0;
 constexpr std::size_t kRefined = 2;  // starts that are refined on all samples
 
 // Iterations after which candidates are compared; only the best is carried to its minimum.
-constexpr int kBriefIterations = 12;
+constexpr int kBriefIterations = 8;
 
 // A directional albedo above this is more than the quadrature's error above 1.
 constexpr double kFurnaceBound = 1.01;
@@ -71,9 +72,9 @@ std::vector<Candidate> distinct(const std::vector<Candidate>& candidates, std::s
   for (const Candidate& candidate : candidates) {
     if (result.size() == count) break;
     // Worse than this on the part of the samples will not be best on all.
-    if (candidate.solution.cost > 1.1 * candidates.front().solution.cost) break;
+    if (candidate.solution.cost > 1.3 * candidates.front().solution.cost) break;
     const bool found = std::ranges::any_of(result, [&](const Candidate& other) {
-      return candidate.solution.cost <= other.solution.cost * (1.0 + 1e-4);
+      return candidate.solution.cost <= other.solution.cost * (1.0 + 5e-3);
     });
     if (!found) result.push_back(candidate);
   }
@@ -88,8 +89,10 @@ struct Data {
   Targets part_targets;
   Targets part_wide_targets;
 
-  Data(SampleSet samples, Loss loss) : all(std::move(samples)) {
-    const std::size_t stride = (all.size() + kExplored - 1) / kExplored;
+  Data(SampleSet samples, const FitOptions& options) : all(std::move(samples)) {
+    const Loss loss = options.loss;
+    const std::size_t explored = options.on == FitOn::kTable ? kExploredOfTable : kExploredOfSlices;
+    const std::size_t stride = (all.size() + explored - 1) / explored;
     part = all.thinned(stride);
     all_targets = make_targets(all, loss);
     part_targets = make_targets(part, loss);
@@ -105,7 +108,7 @@ class Fitter {
         options_(options),
         parametrisation_(make_parametrisation(start_material(options),
                                               {options.tier, effects_to_fit(options), options.fixed})),
-        data_(draw_samples(table, options), options.loss),
+        data_(draw_samples(table, options), options),
         on_part_(parametrisation_, data_.part, data_.part_targets, options.loss),
         on_part_wide_(parametrisation_, data_.part, data_.part_wide_targets, options.loss),
         on_all_(parametrisation_, data_.all, data_.all_targets, options.loss) {}

@@ -131,6 +131,30 @@ struct CallistoRows : CallistoLanes {
   }
 };
 
+// Over Lambert diffuse only the terminator's step tells wi from wo, as terms are per cos_i: the mean of both
+// orders is that of their steps.
+struct CallistoMeanStepLanes : CallistoLanes {
+  using CallistoLanes::CallistoLanes;
+  HWY_INLINE kernel::CallistoTerms<V> terms(const kernel::Geometry<V>& g,
+                                            const kernel::GeometryLogs<V>& logs) const {
+    kernel::CallistoTerms<V> t = CallistoLanes::terms(g, logs);
+    const V other = kernel::smoothstep_from_zero(t.terminator * shape.terminator_length, g.cos_o);
+    t.terminator_step = V(0.5) * (t.terminator_step + other);
+    return t;
+  }
+};
+
+struct CallistoMeanStepRows : CallistoRows {
+  using CallistoRows::CallistoRows;
+  HWY_INLINE void prepare(const kernel::Geometry<V>& g, const kernel::GeometryLogs<V>& logs) {
+    CallistoRows::prepare(g, logs);
+    const D<3> length(shape.terminator_length, 0);
+    const D<3> other = kernel::smoothstep_from_zero(value.terminator * length, g.cos_o);
+    at.terminator_step = (at.terminator_step + other) * V(0.5);
+    value.terminator_step = at.terminator_step.a;
+  }
+};
+
 // Rows of one channel over a block of samples: derivatives, then the residual. Rows of all channels fit the
 // cache; their stride is not a power of two, so that they do not compete for the same lines of it.
 constexpr std::size_t kRowLength = 2 * kBlock;
@@ -335,8 +359,10 @@ void accumulate_gram(const GramJob& job, Gram& gram) {
     return job.mean_of_orders ? gram_of<LambertGgxRows, true>(job, gram)
                               : gram_of<LambertGgxRows, false>(job, gram);
   }
-  return job.mean_of_orders ? gram_of<CallistoRows, true>(job, gram)
-                            : gram_of<CallistoRows, false>(job, gram);
+  if (!job.mean_of_orders) return gram_of<CallistoRows, false>(job, gram);
+  if (job.coefficients.diffuse == BRDF_DIFFUSE_LAMBERT)
+    return gram_of<CallistoMeanStepRows, false>(job, gram);
+  gram_of<CallistoRows, true>(job, gram);
 }
 
 double evaluate_cost(const GramJob& job) {
@@ -344,7 +370,9 @@ double evaluate_cost(const GramJob& job) {
   if (job.coefficients.model == 0) {
     return job.mean_of_orders ? cost_of<LambertGgxLanes, true>(job) : cost_of<LambertGgxLanes, false>(job);
   }
-  return job.mean_of_orders ? cost_of<CallistoLanes, true>(job) : cost_of<CallistoLanes, false>(job);
+  if (!job.mean_of_orders) return cost_of<CallistoLanes, false>(job);
+  if (job.coefficients.diffuse == BRDF_DIFFUSE_LAMBERT) return cost_of<CallistoMeanStepLanes, false>(job);
+  return cost_of<CallistoLanes, true>(job);
 }
 
 }  // namespace brdfit::simd::BRDFIT_SIMD_ISA

@@ -15,7 +15,7 @@ HWY_INLINE void eval_at(const ModelLanes& model, const kernel::Geometry<V>& g,
 
 template <class ModelLanes>
 HWY_FLATTEN void eval_model(const Coefficients& k, const GeometryColumns& columns, std::size_t count,
-                double* const out[3]) {
+                            double* const out[3]) {
   const ModelLanes model(k);
   for (std::size_t at = 0; at < count; at += V::size) {
     kernel::GeometryLogs<V> logs = {V(0.0), V(0.0), V(0.0), V(0.0)};
@@ -25,7 +25,8 @@ HWY_FLATTEN void eval_model(const Coefficients& k, const GeometryColumns& column
 }
 
 template <class ModelLanes>
-HWY_FLATTEN void eval_model(const Coefficients& k, const DirectionColumns& w, std::size_t count, double* const out[3]) {
+HWY_FLATTEN void eval_model(const Coefficients& k, const DirectionColumns& w, std::size_t count,
+                            double* const out[3]) {
   const ModelLanes model(k);
   for (std::size_t at = 0; at < count; at += V::size) {
     const kernel::Geometry<V> g =
