@@ -140,7 +140,9 @@ FitArguments::FitArguments()
       diffuse(name_of(kDefaults.material_options.diffuse)) {}
 
 void add_fit_arguments(CLI::App& app, FitArguments& a) {
+  // Lists are separated by commas, so that an option does not take the file behind it.
   app.add_option("--model", a.models, "models to fit")
+      ->allow_extra_args(false)
       ->delimiter(',')
       ->check(CLI::IsMember(with(names_of(all_models()), {"all"})))
       ->capture_default_str();
@@ -148,13 +150,17 @@ void add_fit_arguments(CLI::App& app, FitArguments& a) {
       ->check(CLI::IsMember({"base", "advanced", "full"}))
       ->capture_default_str();
   app.add_option("--effects", a.effects, "effects that may be used")
+      ->allow_extra_args(false)
       ->delimiter(',')
       ->check(CLI::IsMember(with(effect_names(), {"all", "none"})))
       ->capture_default_str();
   app.add_option("--on", a.on, "what is fitted: a stratified sample of the table, or slices")
       ->check(CLI::IsMember({"table", "slices"}))
       ->capture_default_str();
-  app.add_option("--phi-d", a.phi_d_deg, "slices to fit, in degrees")->delimiter(',')->capture_default_str();
+  app.add_option("--phi-d", a.phi_d_deg, "slices to fit, in degrees")
+      ->allow_extra_args(false)
+      ->delimiter(',')
+      ->capture_default_str();
   app.add_option(
          "--max-theta", a.max_theta_deg,
          "leave out directions further from the normal, in degrees (MERL is extrapolated above about 80)")
@@ -180,7 +186,8 @@ void add_fit_arguments(CLI::App& app, FitArguments& a) {
       ->check(CLI::IsMember({"lower-edge", "centre"}))
       ->capture_default_str();
   app.add_flag("--lenient", a.lenient, "take NaN and infinities as unmeasured, and say how many");
-  app.add_option("--init", a.init, "a material JSON of the same model to start from as well");
+  app.add_option("--init", a.init, "a material JSON of the same model to start from as well")
+      ->allow_extra_args(false);
   app.add_option("--fix", a.fix, "NAME=NUMBER or NAME=RED,GREEN,BLUE: hold a parameter (may be repeated)")
       ->allow_extra_args(false);
 }

@@ -10,8 +10,7 @@ namespace brdfit::fit {
 
 // Values are used as ints in vector code (fit/loss_kernel.h).
 enum class Loss {
-  kLogRatio =
-      0,  // ln(f cos_i + 1e-3): the default; agrees best with human judgement among those that can be fitted
+  kLogRatio = 0,  // ln(f cos_i + 1e-3): the default
   kCubeRoot = 1,  // cbrt(f cos_i + 1e-6)
   kLinear = 2,    // f cos_i
   kSrgb = 3,      // sRGB transfer of pi f cos_i, continued above 1 so that highlights keep a gradient

@@ -12,7 +12,7 @@
 
 namespace brdfit::fit {
 
-// The floor of the log-ratio (metrics.md: 1e-3 in f cos_i) and of the cube root.
+// The floor of the log-ratio (in f cos_i) and of the cube root.
 inline constexpr double kLogFloor = 1e-3;
 inline constexpr double kCubeRootFloor = 1e-6;
 

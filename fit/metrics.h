@@ -10,9 +10,8 @@
 
 namespace brdfit::fit {
 
-// With f the model, r the reference, over channels and cells of uniform weight (the design notes'
-// metrics.md). f of a cell is the mean of f(wi, wo) and f(wo, wi), as an exported table stores it; cos_i is
-// that of the stored order.
+// With f the model, r the reference, over channels and cells of uniform weight. f of a cell is the mean of
+// f(wi, wo) and f(wo, wi), as an exported table stores it; cos_i is that of the stored order.
 struct Measures {
   double slice_pct = 0.0;  // 100 RMS of clip(f, 0, 1) - clip(r, 0, 1), below 80 deg in theta_h and theta_d
   double log_ratio_pct = 0.0;  // 100 mean |ln((f cos_i + 1e-3) / (r cos_i + 1e-3))|

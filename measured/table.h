@@ -23,7 +23,7 @@ enum class CellAnchor {
 // Dimensions of the grid, and the angles of its cells.
 //
 // theta_h is spaced as a square (theta_h = (i/n)^2 pi/2), theta_d and phi_d evenly over [0, pi/2) and [0,
-// pi). Matusik 2003; metrics.md of the design notes: "Grid of the slice measures".
+// pi); Matusik et al. 2003.
 struct Grid {
   int n_theta_h = 90;
   int n_theta_d = 90;

@@ -1,4 +1,4 @@
-// Burley's model against the model sheet, its symmetries and its effects one by one.
+// Burley's model against the published formulas, its symmetries and its effects one by one.
 #include "tests/model_matchers.h"
 
 namespace brdfit {
@@ -17,11 +17,11 @@ Material with_effect(Effect effect) {
   return material;
 }
 
-TEST(Burley, EqualsTheModelSheetWithTheMaskingOf2012) {
+TEST(Burley, EqualsThePublishedFormulasWithTheMaskingOf2012) {
   testing_support::expect_equals_reference(Model::kBurley, k2012, 1e-12);
 }
 
-TEST(Burley, EqualsTheModelSheetWithTheMaskingOf2017) {
+TEST(Burley, EqualsThePublishedFormulasWithTheMaskingOf2017) {
   testing_support::expect_equals_reference(Model::kBurley, k2017, 1e-12);
 }
 

@@ -1,4 +1,4 @@
-// Callisto against the model sheet, its neutral settings, and its effects one by one.
+// Callisto against the published formulas, its neutral settings, and its effects one by one.
 #include "tests/model_matchers.h"
 
 namespace brdfit {
@@ -45,11 +45,11 @@ void expect_same(const Material& actual, const Material& expected, double relati
   }
 }
 
-TEST(Callisto, EqualsTheModelSheetWithSeparableMasking) {
+TEST(Callisto, EqualsThePublishedFormulasWithSeparableMasking) {
   testing_support::expect_equals_reference(Model::kCallisto, kSeparable, 1e-12);
 }
 
-TEST(Callisto, EqualsTheModelSheetWithCorrelatedMasking) {
+TEST(Callisto, EqualsThePublishedFormulasWithCorrelatedMasking) {
   testing_support::expect_equals_reference(Model::kCallisto, kCorrelated, 1e-12);
 }
 
@@ -94,7 +94,7 @@ TEST(Callisto, IsReciprocalWithoutTheTerminator) {
   testing_support::expect_reciprocal(Model::kCallisto, kCorrelated, effects);
 }
 
-// The model sheet's example: at theta_h = theta_d = 40 deg the terminator gives 0.65 one way and 1 the other.
+// The example: at theta_h = theta_d = 40 deg the terminator gives 0.65 one way and 1 the other.
 TEST(Callisto, TerminatorIsNotReciprocal) {
   Material material = callisto(Effects().with(Effect::kSmoothTerminator));
   EXPECT_FALSE(is_reciprocal(material));

@@ -131,6 +131,15 @@ TEST_F(Cli, ADamagedFileExitsWith3AndOneLineAndLeavesNoOutput) {
   }
 }
 
+TEST_F(Cli, OptionsThatTakeListsLeaveTheFileBehindThem) {
+  make_table("soft", Model::kLambertGgx, 1);
+  const ProgramResult result =
+      run("fit -q -o " + quoted("out") + " --phi-d 45,90 --on slices --effects none --model " +
+          "lambert-ggx,burley " + quoted("soft.binary"));
+  EXPECT_EQ(result.exit_code, 0) << result.err;
+  EXPECT_EQ(files_in("out"), 2U);
+}
+
 TEST_F(Cli, LenientTakesNonFiniteValuesAsUnmeasuredAndSaysHowMany) {
   make_table("sound", Model::kLambertGgx, 1);
   std::string bytes = tests::read_text(path("sound.binary"));

@@ -37,7 +37,7 @@ TEST(Effects, HaveOneBitEach) {
   }
 }
 
-TEST(Effects, AreNamedAsTheModelSheetNamesThem) {
+TEST(Effects, HaveTheirPublicNames) {
   std::set<std::string_view> names;
   for (const Effect effect : all_effects()) names.insert(effect_name(effect));
   EXPECT_THAT(names, testing::UnorderedElementsAre("diffuse_fresnel", "retroreflection", "smooth_terminator",

@@ -46,7 +46,7 @@ TEST(CallistoFresnel, AtOneIsWhiteAtEveryAngle) {
   for (const double u : {0.0, 1e-300, 0.1, 1.0}) EXPECT_EQ(callisto_falloff(1.0, u), 1.0) << u;
 }
 
-TEST(CallistoFresnel, EqualsTheModelSheet) {
+TEST(CallistoFresnel, EqualsThePublishedFormulas) {
   for (const double n_s : {0.01, 0.2, 0.4999, 0.51, 0.8, 0.99}) {
     for (const double u : {1e-6, 0.2, 0.8, 1.0}) {
       const double r = 2.0 * (1.0 - n_s);

@@ -48,7 +48,7 @@ TEST(GgxD, EqualsTheFormWalterPublished) {
   }
 }
 
-TEST(GgxD, EqualsTheModelSheet) {
+TEST(GgxD, EqualsThePublishedFormulas) {
   for (const double alpha : {1e-4, 0.01, 0.3, 1.0}) {
     for (const double theta : {0.0, 1e-4, 0.02, 0.3, 1.0, 1.5}) {
       const auto expected = static_cast<double>(reference::ggx_d(alpha, std::cos(reference::Number(theta))));
@@ -90,7 +90,7 @@ TEST(Gtr1D, IsNormalised) {
   }
 }
 
-TEST(Gtr1D, EqualsTheModelSheet) {
+TEST(Gtr1D, EqualsThePublishedFormulas) {
   for (const double alpha : {0.001, 0.01, 0.1, 0.9, 1.0, 2.0}) {
     for (const double theta : {0.0, 0.01, 0.5, 1.5}) {
       const auto expected = static_cast<double>(reference::gtr1_d(alpha, std::cos(reference::Number(theta))));

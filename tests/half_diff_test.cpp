@@ -1,4 +1,4 @@
-// Half/difference angles: round trips, and the cosines of the model sheet.
+// Half/difference angles: round trips, and the cosines of the published formulas.
 #include "brdf/half_diff.h"
 
 #include <gtest/gtest.h>
@@ -23,7 +23,7 @@ HalfDiff random_angles(std::mt19937& random) {
   return {inside(random), inside(random), turn(random)};
 }
 
-TEST(HalfDiff, DirectionsAreUnitAndMeetTheCosinesOfTheModelSheet) {
+TEST(HalfDiff, DirectionsAreUnitAndMeetTheCosinesOfThePublishedFormulas) {
   std::mt19937 random(1);
   for (int k = 0; k < 1000; ++k) {
     const HalfDiff angles = random_angles(random);

@@ -1,4 +1,4 @@
-// Lambert + GGX against the model sheet, its symmetries and its energy.
+// Lambert + GGX against the published formulas, its symmetries and its energy.
 #include "tests/model_matchers.h"
 
 namespace brdfit {
@@ -26,11 +26,11 @@ Rgb directional_albedo(const Material& material, const Vec3& wo) {
   return albedo;
 }
 
-TEST(LambertGgx, EqualsTheModelSheetWithSeparableMasking) {
+TEST(LambertGgx, EqualsThePublishedFormulasWithSeparableMasking) {
   testing_support::expect_equals_reference(Model::kLambertGgx, kSeparable, 1e-12);
 }
 
-TEST(LambertGgx, EqualsTheModelSheetWithCorrelatedMasking) {
+TEST(LambertGgx, EqualsThePublishedFormulasWithCorrelatedMasking) {
   testing_support::expect_equals_reference(Model::kLambertGgx, kCorrelated, 1e-12);
 }
 

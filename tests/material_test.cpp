@@ -1,4 +1,4 @@
-// The parameter tables as the model sheet has them, and the material that they describe.
+// The parameter tables as documented, and the material that they describe.
 #include "brdf/material.h"
 
 #include <gmock/gmock.h>
@@ -11,7 +11,7 @@ namespace {
 
 using testing::HasSubstr;
 
-// One row of the model sheet.
+// One row of the documented tables.
 struct Row {
   std::string_view name;
   int components;
@@ -73,15 +73,15 @@ void expect_rows(Model model, std::span<const Row> own) {
   }
 }
 
-TEST(ParameterTable, OfLambertGgxEqualsTheModelSheet) {
+TEST(ParameterTable, OfLambertGgxEqualsTheDocumentedOne) {
   expect_rows(Model::kLambertGgx, {});
 }
 
-TEST(ParameterTable, OfBurleyEqualsTheModelSheet) {
+TEST(ParameterTable, OfBurleyEqualsTheDocumentedOne) {
   expect_rows(Model::kBurley, kBurley);
 }
 
-TEST(ParameterTable, OfCallistoEqualsTheModelSheet) {
+TEST(ParameterTable, OfCallistoEqualsTheDocumentedOne) {
   expect_rows(Model::kCallisto, kCallisto);
 }
 

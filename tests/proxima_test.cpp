@@ -1,4 +1,4 @@
-// Proxima against the model sheet and against the integral that it approximates.
+// Proxima against the published formulas and against the integral that it approximates.
 #include "brdf/kernel/proxima.h"
 
 #include "tests/model_matchers.h"
@@ -14,11 +14,11 @@ constexpr MaterialOptions kProxima = {.diffuse = Diffuse::kProxima};
 constexpr MaterialOptions kProximaCorrelated = {.masking = Masking::kCorrelated,
                                                 .diffuse = Diffuse::kProxima};
 
-TEST(Proxima, EqualsTheModelSheetInLambertGgx) {
+TEST(Proxima, EqualsThePublishedFormulasInLambertGgx) {
   testing_support::expect_equals_reference(Model::kLambertGgx, kProxima, 1e-12);
 }
 
-TEST(Proxima, EqualsTheModelSheetInCallisto) {
+TEST(Proxima, EqualsThePublishedFormulasInCallisto) {
   testing_support::expect_equals_reference(Model::kCallisto, kProxima, 1e-12);
   testing_support::expect_equals_reference(Model::kCallisto, kProximaCorrelated, 1e-12);
 }

@@ -1,4 +1,4 @@
-// Burley 2012 as the model sheet states it, for tests to compare with.
+// Burley 2012 as published, for tests to compare with.
 #ifndef BRDFIT_TESTS_REFERENCE_BURLEY_H_
 #define BRDFIT_TESTS_REFERENCE_BURLEY_H_
 

@@ -1,4 +1,4 @@
-// Callisto and Callisto + Proxima as the model sheet states them, for tests to compare with.
+// Callisto and Callisto + Proxima as published, for tests to compare with.
 #ifndef BRDFIT_TESTS_REFERENCE_CALLISTO_H_
 #define BRDFIT_TESTS_REFERENCE_CALLISTO_H_
 
@@ -10,7 +10,7 @@ inline Number callisto_r(Number x) {
   return 2 * (1 - x);
 }
 
-// The sheet's h(theta, n, phi, m), with 1 - cos theta given.
+// Callisto's h(theta, n, phi, m), with 1 - cos theta given.
 inline Number callisto_h(Number one_minus_cos_theta, Number n, Number cos_phi, Number m) {
   return power(one_minus_cos_theta, 5 * n) * power(cos_phi, 5 * m);
 }

@@ -1,4 +1,4 @@
-// What the reference models of the tests know of a pair of directions. Written from the model sheet in
+// What the reference models of the tests know of a pair of directions. Written from the published formulas in
 // extended precision, by other formulas than the kernels'.
 #ifndef BRDFIT_TESTS_REFERENCE_GEOMETRY_H_
 #define BRDFIT_TESTS_REFERENCE_GEOMETRY_H_

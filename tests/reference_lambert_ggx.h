@@ -1,4 +1,4 @@
-// Lambert + GGX and Proxima as the model sheet states them, for tests to compare with.
+// Lambert + GGX and Proxima as published, for tests to compare with.
 #ifndef BRDFIT_TESTS_REFERENCE_LAMBERT_GGX_H_
 #define BRDFIT_TESTS_REFERENCE_LAMBERT_GGX_H_
 
