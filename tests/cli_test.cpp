@@ -213,7 +213,8 @@ TEST_F(Cli, AnExportedFitHasTheErrorsThatTheFitPrinted) {
     const ProgramResult table = run("table " + quoted("soft.binary") + " --json -q --against " +
                                     quoted("again.binary") + " " + quoted(material));
     ASSERT_EQ(table.exit_code, 0) << table.err;
-    for (const auto& row : json::parse(table.out)["rows"]) {
+    const auto compared = json::parse(table.out);
+    for (const auto& row : compared["rows"]) {
       for (const char* place : {"slice", "table"}) {
         for (const auto& [measure, value] : fitted[model][place].items()) {
           const double expected = value.get<double>();
