@@ -9,9 +9,8 @@
 
 namespace brdfit::fit {
 
-// The largest number of coefficients of a channel (Callisto: 9 of the shape, 5 of the colour), and the side
-// of a Gram matrix: coefficients, then the residual, padded with zeros to whole vector tiles.
-inline constexpr int kMaxCoefficients = 14;
+// The side of a Gram matrix: the coefficients of a channel (at most 14), then the residual, and what is left
+// is 0.
 inline constexpr int kGramSide = 16;
 
 // How many coefficients a channel has, in the order of a Gram matrix' rows: the shape, then the colour.
