@@ -121,12 +121,12 @@ struct NonFinite {
   double first_value = 0.0;
 };
 
-// Counts what convert() objected to and marks it as not measured.
+// Counts what convert() objected to and leaves it to the table as NaN.
 NonFinite mark_non_finite(const double* stored, float* f, std::size_t count, std::size_t begin) {
   NonFinite found;
   for (std::size_t k = 0; k < count; ++k) {
     if (std::isfinite(stored[k]) && std::isfinite(f[k])) continue;
-    f[k] = -1.0F;
+    f[k] = std::numeric_limits<float>::quiet_NaN();
     if (found.count++ == 0) {
       found.first = begin + k;
       found.first_value = stored[k];

@@ -63,10 +63,20 @@ Scan scan(const float* red, const float* green, const float* blue, std::size_t c
   return {valid, odd == 0};
 }
 
+// The marks of invalid cells. Most have the first, as files store it.
+constexpr float kUnmeasuredMark = -1.0F;
+constexpr float kNegativeMark = -2.0F;
+constexpr float kNotFiniteMark = -3.0F;
+
+float mark_of(float red, float green, float blue) {
+  if (!std::isfinite(red) || !std::isfinite(green) || !std::isfinite(blue)) return kNotFiniteMark;
+  return red < 0.0F && green < 0.0F && blue < 0.0F ? kUnmeasuredMark : kNegativeMark;
+}
+
 void mark_invalid(float* red, float* green, float* blue, std::size_t count) {
   for (std::size_t k = 0; k < count; ++k) {
     if (!is_measured(red[k]) || !is_measured(green[k]) || !is_measured(blue[k])) {
-      red[k] = green[k] = blue[k] = -1.0F;
+      red[k] = green[k] = blue[k] = mark_of(red[k], green[k], blue[k]);
     }
   }
 }
@@ -153,6 +163,21 @@ MeasuredTable::MeasuredTable(const Grid& grid, std::vector<float> planes)
     valid_count_ += found.valid;
     if (!found.is_canonical) mark_invalid(red, green, blue, count);
   }
+}
+
+CellState MeasuredTable::state(std::size_t cell) const {
+  const float value = planes_[cell];
+  if (value >= 0.0F) return CellState::kMeasured;
+  if (value == kUnmeasuredMark) return CellState::kUnmeasured;
+  return value == kNegativeMark ? CellState::kNegative : CellState::kNotFinite;
+}
+
+std::array<std::size_t, 4> MeasuredTable::state_counts() const {
+  std::array<std::size_t, 4> counts{};
+  for (std::size_t cell = 0; cell < planes_.size() / 3; ++cell) {
+    ++counts[static_cast<std::size_t>(state(cell))];
+  }
+  return counts;
 }
 
 Rgb MeasuredTable::value(std::size_t cell) const {

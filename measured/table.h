@@ -2,6 +2,7 @@
 #ifndef BRDFIT_MEASURED_TABLE_H_
 #define BRDFIT_MEASURED_TABLE_H_
 
+#include <array>
 #include <cstddef>
 #include <cstdint>
 #include <optional>
@@ -18,6 +19,14 @@ namespace brdfit {
 enum class CellAnchor {
   kLowerEdge,  // at the cell's smallest angles, as MERL's own tables are read (the default everywhere)
   kCentre,     // half a cell further
+};
+
+// What a cell of a table holds.
+enum class CellState {
+  kMeasured,
+  kUnmeasured,  // all channels negative: the file's mark for "no measurement"
+  kNegative,    // some channels negative, others not
+  kNotFinite,   // NaN or infinity in some channel
 };
 
 // Dimensions of the grid, and the angles of its cells.
@@ -57,18 +66,24 @@ class MeasuredTable {
   MeasuredTable() = default;
 
   // planes: red, green and blue values of f, each grid.cell_count() floats in the order of Grid::index. A
-  // cell with a negative or non-finite channel is invalid, and so becomes -1 in all three. Throws
-  // std::invalid_argument if the size is not 3 * grid.cell_count() or a dimension is not positive.
+  // cell with a negative or non-finite channel is invalid; its values are replaced by a mark that keeps the
+  // reason. Throws std::invalid_argument if the size is not 3 * grid.cell_count() or a dimension is not
+  // positive.
   MeasuredTable(const Grid& grid, std::vector<float> planes);
 
   const Grid& grid() const { return grid_; }
   std::size_t valid_count() const { return valid_count_; }
   bool is_valid(std::size_t cell) const { return planes_[cell] >= 0.0F; }
 
-  // f of a valid cell; -1 in all channels of an invalid one.
+  // Why a cell is not valid, or kMeasured.
+  CellState state(std::size_t cell) const;
+  // Cells of each state, in the order of CellState.
+  std::array<std::size_t, 4> state_counts() const;
+
+  // f of a valid cell; the same negative number in all channels of an invalid one.
   Rgb value(std::size_t cell) const;
 
-  // One colour's plane, grid().cell_count() values.
+  // One colour's plane, grid().cell_count() values; negative in invalid cells.
   std::span<const float> plane(int channel) const;
 
   // The largest value of any valid cell and channel; 0 if there is none.

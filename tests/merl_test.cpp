@@ -302,14 +302,17 @@ TEST_F(MerlTest, PlacesInTheFileAreThoseOfTheFormat) {
   EXPECT_FLOAT_EQ(static_cast<float>(table.value(cell)[2]), 71.0F * 1.66F);
 }
 
-// Floats of every size, and holes.
+// Floats of every size, and cells that are not measured.
 MeasuredTable random_table(const Grid& grid) {
   std::mt19937 random(14);
-  std::vector<float> planes(3 * grid.cell_count());
+  const std::size_t cells = grid.cell_count();
+  std::vector<float> planes(3 * cells);
   for (float& f : planes) {
     const int exponent = static_cast<int>(random() % 60) - 40;
-    f = random() % 8 == 0 ? -1.0F
-                          : std::ldexp(1.0F + static_cast<float>(random() % 8388608) / 8388608.0F, exponent);
+    f = std::ldexp(1.0F + static_cast<float>(random() % 8388608) / 8388608.0F, exponent);
+  }
+  for (std::size_t cell = 0; cell < cells; ++cell) {
+    if (random() % 3 == 0) planes[cell] = planes[cell + cells] = planes[cell + 2 * cells] = -1.0F;
   }
   return {grid, std::move(planes)};
 }

@@ -217,8 +217,21 @@ TEST(MeasuredTable, ACellWithOneBadChannelIsInvalidInAll) {
   for (const std::size_t cell : {0U, 2U, 5U}) EXPECT_TRUE(table.is_valid(cell));
   for (const std::size_t cell : {1U, 3U, 4U}) {
     EXPECT_FALSE(table.is_valid(cell));
-    EXPECT_EQ(table.value(cell), (Rgb{-1, -1, -1}));
+    for (std::size_t c = 0; c < 3; ++c) EXPECT_LT(table.value(cell)[c], 0.0);
   }
+}
+
+TEST(MeasuredTable, AnInvalidCellKeepsItsReason) {
+  const Grid grid{1, 2, 3, CellAnchor::kLowerEdge};
+  const float nan = std::numeric_limits<float>::quiet_NaN();
+  const MeasuredTable table(grid, {1, -7, -1, -kInfinity, 1, 0,  //
+                                   1, 1, -2, -1, 1, 0,           //
+                                   1, 1, -3, -1, nan, 0});
+  const std::array<CellState, 6> expected = {CellState::kMeasured,   CellState::kNegative,
+                                             CellState::kUnmeasured, CellState::kNotFinite,
+                                             CellState::kNotFinite,  CellState::kMeasured};
+  for (std::size_t cell = 0; cell < 6; ++cell) EXPECT_EQ(table.state(cell), expected[cell]) << cell;
+  EXPECT_EQ(table.state_counts(), (std::array<std::size_t, 4>{2, 1, 1, 2}));
 }
 
 TEST(MeasuredTable, ValidityIsFoundInEveryPlaceOfALongTable) {
@@ -229,7 +242,7 @@ TEST(MeasuredTable, ValidityIsFoundInEveryPlaceOfALongTable) {
     const MeasuredTable table(grid, std::move(planes));
     EXPECT_EQ(table.valid_count(), grid.cell_count() - 1);
     EXPECT_FALSE(table.is_valid(bad));
-    EXPECT_EQ(table.value(bad), (Rgb{-1, -1, -1}));
+    EXPECT_EQ(table.state(bad), CellState::kNegative);
   }
 }
 
