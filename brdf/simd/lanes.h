@@ -62,6 +62,23 @@ template <class S>
 HWY_INLINE Lanes<S> exp(Lanes<S> x) {
   return Lanes<S>::of(hn::Exp(typename Lanes<S>::Tag(), x.v));
 }
+// exp of doubles for x <= 709 (kernels raise numbers in [0, 1] to powers, so x <= 0), with fewer steps than
+// hn::Exp and its accuracy: relative error 2e-16; results below the smallest normal number are 0.
+HWY_INLINE Lanes<double> exp(Lanes<double> x) {
+  using Tag = Lanes<double>::Tag;
+  const Tag d;
+  const hn::RebindToUnsigned<Tag> bits;
+  // The sum's low bits are the nearest whole number of x / ln 2.
+  const auto shifter = hn::Set(d, 6755399441055744.0);  // 1.5 * 2^52
+  const auto shifted = hn::MulAdd(x.v, hn::Set(d, 1.442695040888963407359924681), shifter);
+  const auto power = hn::Sub(shifted, shifter);
+  auto r = hn::MulAdd(power, hn::Set(d, -0.6931471805596629565116018), x.v);
+  r = hn::MulAdd(power, hn::Set(d, -0.28235290563031577122588448175e-12), r);
+  const auto e = hn::Add(hn::impl::ExpImpl<double>().ExpPoly(d, r), hn::Set(d, 1.0));
+  const auto scaled =
+      hn::BitCast(d, hn::Add(hn::BitCast(bits, e), hn::ShiftLeft<52>(hn::BitCast(bits, shifted))));
+  return Lanes<double>::of(hn::IfThenElseZero(hn::Ge(x.v, hn::Set(d, -708.0)), scaled));
+}
 template <class S>
 HWY_INLINE Lanes<S> log(Lanes<S> x) {
   return Lanes<S>::of(hn::Log(typename Lanes<S>::Tag(), x.v));
