@@ -33,16 +33,21 @@ struct CommonOptions {
 // Adds --json, -q, --threads and, where the subcommand writes files, --force.
 void add_common_options(CLI::App& app, CommonOptions& options, bool writes_files);
 
-// A subcommand: its parser, and what it does. run() returns an ExitCode.
+// A subcommand: its parser, and what it does. run() takes the command line, for provenance, and returns an
+// ExitCode.
 struct Command {
   CLI::App* app = nullptr;
-  std::function<int()> run;
+  std::function<int(const std::string& command_line)> run;
 };
 
 // Each adds its parser to the program's and keeps its options alive in the result.
 Command add_fit_command(CLI::App& program);
 Command add_table_command(CLI::App& program);
 Command add_info_command(CLI::App& program);
+Command add_slice_command(CLI::App& program);
+Command add_sphere_command(CLI::App& program);
+Command add_compare_command(CLI::App& program);
+Command add_report_command(CLI::App& program);
 Command add_synth_command(CLI::App& program);
 Command add_export_command(CLI::App& program);
 Command add_demo_command(CLI::App& program);

@@ -62,7 +62,7 @@ Command add_export_command(CLI::App& program) {
       ->check(CLI::IsMember({"lower-edge", "centre"}))
       ->capture_default_str();
   add_common_options(*app, a->common, true);
-  return {app, [a] { return run(*a); }};
+  return {app, [a](const std::string&) { return run(*a); }};
 }
 
 }  // namespace brdfit::cli

@@ -108,7 +108,7 @@ Command add_info_command(CLI::App& program) {
   app->add_option("file", a->file, "MERL-format .binary file, or a material .json")->required();
   app->add_flag("--lenient", a->lenient, "take NaN and infinities as unmeasured, and say how many");
   add_common_options(*app, a->common, false);
-  return {app, [a] { return run(*a); }};
+  return {app, [a](const std::string&) { return run(*a); }};
 }
 
 }  // namespace brdfit::cli

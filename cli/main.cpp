@@ -22,11 +22,25 @@ int exit_code_of(const CLI::ParseError& error, const CLI::App& program) {
   return kWrongUsage;
 }
 
+// What was typed, with quotes where a shell needs them; the program by its name alone.
+std::string command_line_of(int argc, char** argv) {
+  std::string line = "brdfit";
+  for (int k = 1; k < argc; ++k) {
+    const std::string word = argv[k];
+    const bool is_plain =
+        !word.empty() && word.find_first_of(" \t\n'\"\\$*?[]{}();&|<>~#!`") == std::string::npos;
+    std::string quoted = "'";
+    for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
+    line += " " + (is_plain ? word : quoted + "'");
+  }
+  return line;
+}
+
 // Runs the subcommand and says what went wrong in one line.
-int run_command(const Command& command) {
+int run_command(const Command& command, const std::string& command_line) {
   const std::string name = "brdfit " + command.app->get_name();
   try {
-    return command.run();
+    return command.run(command_line);
   } catch (const UsageError& error) {
     fmt::print(stderr, "{}: {}; see {} --help\n", name, error.what(), name);
     return kWrongUsage;
@@ -48,7 +62,9 @@ int run(int argc, char** argv) {
   program.set_version_flag("--version", std::string("brdfit ") + kVersion);
   program.require_subcommand(1);
   const std::vector<Command> commands = {add_fit_command(program),    add_table_command(program),
-                                         add_info_command(program),   add_synth_command(program),
+                                         add_info_command(program),   add_slice_command(program),
+                                         add_sphere_command(program), add_compare_command(program),
+                                         add_report_command(program), add_synth_command(program),
                                          add_export_command(program), add_demo_command(program)};
   for (const Command& command : commands) {
     command.app->set_version_flag("--version", std::string("brdfit ") + kVersion);
@@ -61,7 +77,7 @@ int run(int argc, char** argv) {
   fit::silence_solver_logging();
   watch_for_interruption();
   for (const Command& command : commands) {
-    if (command.app->parsed()) return run_command(command);
+    if (command.app->parsed()) return run_command(command, command_line_of(argc, argv));
   }
   return kWrongUsage;
 }

@@ -1,6 +1,8 @@
 // Results to JSON.
 #include "cli/result_json.h"
 
+#include <fmt/format.h>
+
 namespace brdfit::cli {
 namespace {
 
@@ -22,10 +24,20 @@ Json parameter_to_json(const Material& material, const fit::ParameterState& stat
   return json;
 }
 
-Json timings_to_json(const fit::FitTimings& timings) {
+Json timings_to_json(const JudgedFit& judged) {
+  const fit::FitTimings& timings = judged.fit.timings;
   return {{"sample", timings.sample_seconds},   {"explore", timings.explore_seconds},
           {"refine", timings.refine_seconds},   {"evidence", timings.evidence_seconds},
-          {"measure", timings.measure_seconds}, {"fit", timings.total_seconds}};
+          {"measure", timings.measure_seconds}, {"sphere", judged.sphere.seconds},
+          {"fit", judged.total_seconds()}};
+}
+
+Json by_light_to_json(const render::SphereDeltaE& sphere) {
+  Json json;
+  for (std::size_t k = 0; k < render::kLightAnglesDeg.size(); ++k) {
+    json[fmt::format("{:g}", render::kLightAnglesDeg[k])] = sphere.by_light[k];
+  }
+  return json;
 }
 
 Json options_to_json(const fit::FitOptions& options) {
@@ -49,6 +61,12 @@ Json options_to_json(const fit::FitOptions& options) {
 
 }  // namespace
 
+std::string path_from(const std::filesystem::path& folder, const std::filesystem::path& file) {
+  std::error_code error;
+  const std::filesystem::path path = std::filesystem::proximate(file, folder, error);
+  return error || path.is_absolute() ? "" : path.generic_string();
+}
+
 Json measures_to_json(const fit::Measures& m) {
   return {{"log_ratio_pct", m.log_ratio_pct},
           {"slice_pct", m.slice_pct},
@@ -59,16 +77,20 @@ Json measures_to_json(const fit::Measures& m) {
           {"cells", m.cells}};
 }
 
-Json evaluation_to_json(const fit::Evaluation& evaluation) {
-  return {{"slice", measures_to_json(evaluation.slice)},
-          {"table", measures_to_json(evaluation.table)},
-          {"reciprocity_gap_pct", evaluation.reciprocity_gap_pct}};
+Json evaluation_to_json(const fit::Evaluation& evaluation, const render::SphereDeltaE& sphere) {
+  return {
+      {"slice", measures_to_json(evaluation.slice)},           {"table", measures_to_json(evaluation.table)},
+      {"reciprocity_gap_pct", evaluation.reciprocity_gap_pct}, {"sphere_delta_e", sphere.mean},
+      {"sphere_delta_e_by_light", by_light_to_json(sphere)},   {"sphere_pixels_skipped", sphere.skipped}};
 }
 
-Json evidence_to_json(const fit::FitResult& result, const Provenance& provenance) {
+Json evidence_to_json(const JudgedFit& judged, const Provenance& provenance) {
+  const fit::FitResult& result = judged.fit;
   Json json;
   json["version"] = provenance.version;
+  if (!provenance.command.empty()) json["command"] = provenance.command;
   json["input"] = {{"name", provenance.input}, {"sha256", provenance.sha256}, {"cell", provenance.cell}};
+  if (!provenance.path.empty()) json["input"]["path"] = provenance.path;
   if (provenance.lenient) json["input"]["non_finite_values"] = provenance.non_finite_values;
   json["options"] = options_to_json(result.options);
   json["observations"] = result.observations;
@@ -83,9 +105,7 @@ Json evidence_to_json(const fit::FitResult& result, const Provenance& provenance
   json["converged"] = result.converged;
   json["termination"] = result.termination;
   json["free_parameters"] = result.free_parameters;
-  json["slice"] = measures_to_json(result.evaluation.slice);
-  json["table"] = measures_to_json(result.evaluation.table);
-  json["reciprocity_gap_pct"] = result.evaluation.reciprocity_gap_pct;
+  json.update(evaluation_to_json(result.evaluation, judged.sphere.delta_e));
   json["largest_directional_albedo"] = result.largest_albedo;
   Json parameters = Json::object();
   for (const fit::ParameterState& state : result.parameters) {
@@ -98,7 +118,7 @@ Json evidence_to_json(const fit::FitResult& result, const Provenance& provenance
   }
   json["correlated"] = correlated;
   json["notes"] = result.notes;
-  json["timings_seconds"] = timings_to_json(result.timings);
+  json["timings_seconds"] = timings_to_json(judged);
   return json;
 }
 

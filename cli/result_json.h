@@ -2,8 +2,10 @@
 #ifndef BRDFIT_CLI_RESULT_JSON_H_
 #define BRDFIT_CLI_RESULT_JSON_H_
 
+#include <filesystem>
 #include <string>
 
+#include "cli/sphere_judge.h"
 #include "fit/fit.h"
 #include "io/json.h"
 
@@ -16,16 +18,21 @@ struct Provenance {
   std::string version;
   bool lenient = false;
   std::size_t non_finite_values = 0;
-  std::string cell;  // "lower-edge" or "centre"
+  std::string cell;     // "lower-edge" or "centre"
+  std::string path;     // of the input from the folder of the result, so that a report finds it
+  std::string command;  // the line that was typed
 };
+
+// `path` of a provenance. Empty where there is no way from one to the other.
+std::string path_from(const std::filesystem::path& folder, const std::filesystem::path& file);
 
 io::Json measures_to_json(const fit::Measures& measures);
 
 // The member "fit" of a material file. Everything that changes from run to run is under "timings_seconds".
-io::Json evidence_to_json(const fit::FitResult& result, const Provenance& provenance);
+io::Json evidence_to_json(const JudgedFit& judged, const Provenance& provenance);
 
-// {"slice": {...}, "table": {...}, "reciprocity_gap_pct": x}
-io::Json evaluation_to_json(const fit::Evaluation& evaluation);
+// {"slice": {...}, "table": {...}, "reciprocity_gap_pct": x, "sphere_delta_e": x, ...}
+io::Json evaluation_to_json(const fit::Evaluation& evaluation, const render::SphereDeltaE& sphere);
 
 }  // namespace brdfit::cli
 

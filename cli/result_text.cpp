@@ -58,10 +58,11 @@ std::string format_table(const std::vector<std::string>& heading,
 }
 
 std::vector<std::string> measure_heading() {
-  return {"on", "log-ratio %", "slice %", "relative", "cube root", "sRGB", "cosine L2"};
+  return {"on", "log-ratio %", "slice %", "relative", "cube root", "sRGB", "cosine L2", "sphere dE"};
 }
 
-std::vector<std::string> measure_cells(const fit::Evaluation& evaluation) {
+std::vector<std::string> measure_cells(const fit::Evaluation& evaluation,
+                                       const render::SphereDeltaE& sphere) {
   // One row per model and place would double the table: slice and table stand side by side in each cell.
   const fit::Measures& s = evaluation.slice;
   const fit::Measures& t = evaluation.table;
@@ -71,21 +72,23 @@ std::vector<std::string> measure_cells(const fit::Evaluation& evaluation) {
           fmt::format("{:.3f}|{:.3f}", s.relative, t.relative),
           fmt::format("{:.4f}|{:.4f}", s.cube_root, t.cube_root),
           fmt::format("{:.4f}|{:.4f}", s.srgb, t.srgb),
-          fmt::format("{:.3g}|{:.3g}", s.cosine_l2, t.cosine_l2)};
+          fmt::format("{:.3g}|{:.3g}", s.cosine_l2, t.cosine_l2),
+          fmt::format("{:.2f}", sphere.mean)};
 }
 
-std::string format_errors(std::span<const fit::FitResult> results) {
+std::string format_errors(std::span<const JudgedFit> results) {
   std::vector<std::string> heading = {"model", "free"};
   std::ranges::copy(measure_heading(), std::back_inserter(heading));
   heading.emplace_back("gap %");
   heading.emplace_back("seconds");
   std::vector<std::vector<std::string>> rows;
-  for (const fit::FitResult& result : results) {
+  for (const JudgedFit& judged : results) {
+    const fit::FitResult& result = judged.fit;
     std::vector<std::string> row = {std::string(title_of(result.material.model())),
                                     std::to_string(result.free_parameters)};
-    std::ranges::copy(measure_cells(result.evaluation), std::back_inserter(row));
+    std::ranges::copy(measure_cells(result.evaluation, judged.sphere.delta_e), std::back_inserter(row));
     row.push_back(fmt::format("{:.2f}", result.evaluation.reciprocity_gap_pct));
-    row.push_back(fmt::format("{:.3f}", result.timings.total_seconds));
+    row.push_back(fmt::format("{:.3f}", judged.total_seconds()));
     rows.push_back(std::move(row));
   }
   return format_table(heading, rows);
@@ -104,21 +107,23 @@ std::string format_parameters(const fit::FitResult& result) {
   return text;
 }
 
-std::string format_timings(std::span<const fit::FitResult> results, double load_seconds, double floor_seconds,
+std::string format_timings(std::span<const JudgedFit> results, double load_seconds, double floor_seconds,
                            std::size_t peak_bytes) {
   std::vector<std::vector<std::string>> rows;
-  for (const fit::FitResult& result : results) {
-    const fit::FitTimings& t = result.timings;
-    rows.push_back({std::string(title_of(result.material.model())), floors(t.sample_seconds, floor_seconds),
-                    floors(t.explore_seconds, floor_seconds), floors(t.refine_seconds, floor_seconds),
-                    floors(t.evidence_seconds, floor_seconds), floors(t.measure_seconds, floor_seconds),
-                    floors(t.total_seconds, floor_seconds)});
+  for (const JudgedFit& judged : results) {
+    const fit::FitTimings& t = judged.fit.timings;
+    rows.push_back({std::string(title_of(judged.fit.material.model())),
+                    floors(t.sample_seconds, floor_seconds), floors(t.explore_seconds, floor_seconds),
+                    floors(t.refine_seconds, floor_seconds), floors(t.evidence_seconds, floor_seconds),
+                    floors(t.measure_seconds, floor_seconds), floors(judged.sphere.seconds, floor_seconds),
+                    floors(judged.total_seconds(), floor_seconds)});
   }
   return fmt::format(
              "times in units of the load floor, {:.1f} ms (reading and converting the file's bytes); load "
              "{}\n",
              1e3 * floor_seconds, floors(load_seconds, floor_seconds)) +
-         format_table({"model", "sample", "explore", "refine", "evidence", "measure", "all"}, rows) +
+         format_table({"model", "sample", "explore", "refine", "evidence", "measure", "sphere", "all"},
+                      rows) +
          fmt::format("peak memory {:.0f} MB\n", static_cast<double>(peak_bytes) / 1e6);
 }
 

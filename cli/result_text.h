@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/sphere_judge.h"
 #include "fit/fit.h"
 
 namespace brdfit::cli {
@@ -20,16 +21,16 @@ std::string srgb_text(const Material& material, const ParameterInfo& info);
 
 // The errors of one candidate (a model, a file) as cells of a row, in the order of measure_heading().
 std::vector<std::string> measure_heading();
-std::vector<std::string> measure_cells(const fit::Evaluation& evaluation);
+std::vector<std::string> measure_cells(const fit::Evaluation& evaluation, const render::SphereDeltaE& sphere);
 
-// Per model: free parameters, every measure on slice and table, seconds.
-std::string format_errors(std::span<const fit::FitResult> results);
+// Per model: free parameters, every measure on slice and table, sphere dE, seconds.
+std::string format_errors(std::span<const JudgedFit> results);
 
 // Every parameter of a fit with its value, 8-bit sRGB for colours, its range and its status; then the notes.
 std::string format_parameters(const fit::FitResult& result);
 
 // The phases of the fits in units of the load floor.
-std::string format_timings(std::span<const fit::FitResult> results, double load_seconds, double floor_seconds,
+std::string format_timings(std::span<const JudgedFit> results, double load_seconds, double floor_seconds,
                            std::size_t peak_bytes);
 
 }  // namespace brdfit::cli

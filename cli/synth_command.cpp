@@ -57,7 +57,7 @@ Command add_synth_command(CLI::App& program) {
       ->capture_default_str()
       ->take_last();
   add_common_options(*app, a->common, true);
-  return {app, [a] { return run(*a); }};
+  return {app, [a](const std::string&) { return run(*a); }};
 }
 
 }  // namespace brdfit::cli

@@ -8,6 +8,7 @@
 #include "cli/fit_options.h"
 #include "cli/result_json.h"
 #include "cli/result_text.h"
+#include "cli/sphere_judge.h"
 #include "cli/table_input.h"
 #include "cli/threads.h"
 #include "fit/fit.h"
@@ -28,6 +29,7 @@ struct Row {
   std::string file;
   std::string candidate;
   fit::Evaluation evaluation;
+  render::SphereDeltaE sphere;
   double seconds = 0.0;
 };
 
@@ -58,28 +60,34 @@ bool is_material_file(const std::string& file) {
 
 void compare_given(const Arguments& a, const std::string& file, const MeasuredTable& reference,
                    std::vector<Row>& rows) {
+  const TableJudge judge(reference, a.against.size());
   for (const std::string& candidate : a.against) {
     const Stopwatch watch;
     fit::Evaluation evaluation;
+    render::SphereDeltaE sphere;
     if (is_material_file(candidate)) {
-      evaluation = fit::evaluate(io::read_material(candidate), reference, a.fit.max_theta_deg);
+      const Material material = io::read_material(candidate);
+      evaluation = fit::evaluate(material, reference, a.fit.max_theta_deg);
+      sphere = judge(material).delta_e;
     } else {
       const MeasuredTable table = load_table(candidate, make_read_options(a.fit), a.common).table;
       if (table.grid() != reference.grid())
         throw UsageError(candidate + " and " + file + " have different grids");
       evaluation = fit::evaluate(table, reference, a.fit.max_theta_deg);
+      sphere = judge(table).delta_e;
     }
-    rows.push_back({file, candidate, evaluation, watch.seconds()});
+    rows.push_back({file, candidate, evaluation, sphere, watch.seconds()});
   }
 }
 
 void fit_models(const std::string& file, const MeasuredTable& reference,
                 const std::vector<fit::FitOptions>& all_options, std::vector<Row>& rows) {
+  const TableJudge judge(reference, all_options.size());
   for (const fit::FitOptions& options : all_options) {
     if (interrupted()) return;
-    const fit::FitResult result = fit::fit(reference, options);
-    rows.push_back(
-        {file, std::string(name_of(options.model)), result.evaluation, result.timings.total_seconds});
+    const JudgedFit judged = fit_and_judge(reference, options, judge);
+    rows.push_back({file, std::string(name_of(options.model)), judged.fit.evaluation, judged.sphere.delta_e,
+                    judged.total_seconds()});
   }
 }
 
@@ -98,6 +106,18 @@ fit::Measures mean_of(const std::vector<fit::Measures>& all) {
   return mean;
 }
 
+render::SphereDeltaE mean_of(const std::vector<render::SphereDeltaE>& all) {
+  render::SphereDeltaE mean;
+  const auto n = static_cast<double>(all.size());
+  for (const render::SphereDeltaE& sphere : all) {
+    mean.mean += sphere.mean / n;
+    for (std::size_t k = 0; k < mean.by_light.size(); ++k) mean.by_light[k] += sphere.by_light[k] / n;
+    mean.pixels += sphere.pixels;
+    mean.skipped += sphere.skipped;
+  }
+  return mean;
+}
+
 // The mean over files for each candidate, where there are several files.
 std::vector<Row> means(const std::vector<Row>& rows) {
   std::vector<std::string> order;
@@ -110,18 +130,21 @@ std::vector<Row> means(const std::vector<Row>& rows) {
   for (const std::string& candidate : order) {
     const std::vector<const Row*>& group = by_candidate[candidate];
     if (group.size() < 2) continue;
-    Row mean = {fmt::format("mean of {}", group.size()), candidate, {}, 0.0};
+    Row mean = {fmt::format("mean of {}", group.size()), candidate, {}, {}, 0.0};
     std::vector<fit::Measures> slices;
     std::vector<fit::Measures> tables;
+    std::vector<render::SphereDeltaE> spheres;
     for (const Row* row : group) {
       slices.push_back(row->evaluation.slice);
       tables.push_back(row->evaluation.table);
+      spheres.push_back(row->sphere);
       mean.seconds += row->seconds / static_cast<double>(group.size());
       mean.evaluation.reciprocity_gap_pct +=
           row->evaluation.reciprocity_gap_pct / static_cast<double>(group.size());
     }
     mean.evaluation.slice = mean_of(slices);
     mean.evaluation.table = mean_of(tables);
+    mean.sphere = mean_of(spheres);
     result.push_back(std::move(mean));
   }
   return result;
@@ -136,7 +159,7 @@ void print_rows(const CommonOptions& common, const std::vector<Row>& rows,
     for (const auto* group : {&rows, &mean_rows}) {
       for (const Row& row : *group) {
         io::Json entry = {{"file", row.file}, {"candidate", row.candidate}};
-        entry.update(evaluation_to_json(row.evaluation));
+        entry.update(evaluation_to_json(row.evaluation, row.sphere));
         entry["timings_seconds"] = {{"fit", row.seconds}};
         json[group == &rows ? "rows" : "means"].push_back(entry);
       }
@@ -153,7 +176,7 @@ void print_rows(const CommonOptions& common, const std::vector<Row>& rows,
   for (const auto* group : {&rows, &mean_rows}) {
     for (const Row& row : *group) {
       std::vector<std::string> line = {group == &rows ? base_name(row.file) : row.file, row.candidate};
-      std::ranges::copy(measure_cells(row.evaluation), std::back_inserter(line));
+      std::ranges::copy(measure_cells(row.evaluation, row.sphere), std::back_inserter(line));
       line.push_back(fmt::format("{:.2f}", row.evaluation.reciprocity_gap_pct));
       line.push_back(fmt::format("{:.3f}", row.seconds));
       cells.push_back(std::move(line));
@@ -205,7 +228,7 @@ Command add_table_command(CLI::App& program) {
                   "material JSON or MERL-format files to compare instead of fitting");
   add_fit_arguments(*app, a->fit);
   add_common_options(*app, a->common, false);
-  return {app, [a] { return run(*a); }};
+  return {app, [a](const std::string&) { return run(*a); }};
 }
 
 }  // namespace brdfit::cli

@@ -1,4 +1,4 @@
-// Image files through OpenImageIO: PNG for eyes, EXR for values.
+// Image files: PNG for eyes, EXR for values.
 #ifndef BRDFIT_IO_IMAGE_FILE_H_
 #define BRDFIT_IO_IMAGE_FILE_H_
 
@@ -34,7 +34,7 @@ struct PixelViewFloat {
 };
 
 // A PNG file's bytes. Deterministic: no date. Throws std::invalid_argument if sizes disagree,
-// std::runtime_error when OpenImageIO cannot encode.
+// std::runtime_error when the library cannot encode.
 std::vector<unsigned char> encode_png(const PixelView8& pixels, const ImageMetadata& metadata = {});
 
 // An EXR file's bytes: 32-bit float, ZIP. Throws as encode_png, and std::invalid_argument for NaN or

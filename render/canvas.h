@@ -42,7 +42,7 @@ class Canvas {
   void line(int x0, int y0, int x1, int y1, Colour8 colour);        // horizontal or vertical, one pixel wide
   void paste(const Picture& picture, int x, int y);
 
-  // UTF-8, rendered with DejaVu Sans through OpenImageIO. Throws std::runtime_error that names the package to
+  // UTF-8, rendered with DejaVu Sans through FreeType. Throws std::runtime_error that names the package to
   // install (fonts-dejavu-core) when the font is not there.
   void text(int x, int y, std::string_view text, const TextStyle& style);
 

@@ -4,6 +4,7 @@
 
 #include <array>
 #include <cstddef>
+#include <span>
 #include <vector>
 
 #include "brdf/vec3.h"
@@ -20,6 +21,8 @@ Rgb itp_from_linear(const Rgb& linear);
 // 720 times the distance in ITP; 1 is just noticeable in the most critical conditions (BT.2124).
 double delta_e_itp(const Rgb& itp_a, const Rgb& itp_b);
 
+struct DeltaESum;  // of vector code
+
 struct SphereDeltaE {
   double mean = 0.0;                 // over all pixels of the sphere and the four lights
   std::array<double, 4> by_light{};  // for kLightAnglesDeg
@@ -30,14 +33,38 @@ struct SphereDeltaE {
 // Compares spheres with those of one reference, whose colours it keeps: size x size pixels, size even.
 class SphereJudge {
  public:
+  // Throws std::invalid_argument unless size is even and in 2..16384.
   explicit SphereJudge(const Subject& reference, int size = 256);
 
   // Pixels in shadow count (as equal); those that either subject does not hold are left out. NaN-free.
+  // Parallel; the result does not depend on the number of threads.
   SphereDeltaE operator()(const Subject& candidate) const;
 
  private:
+  // Neighbouring lit pixels of one light.
+  struct Chunk {
+    std::size_t light;
+    std::size_t first;
+    std::size_t count;
+    std::size_t padded;
+  };
+  struct Colours {
+    std::array<std::vector<float>, 3> itp;
+  };
+
+  void collect_pixels(std::size_t light);
+  SphereDeltaE totals_of(std::span<const DeltaESum> sums) const;
+  void evaluate(const Subject& subject, const Chunk& chunk, const std::array<float*, 3>& upper,
+                const std::array<float*, 3>& lower) const;
+
   int size_;
-  std::array<std::vector<float>, 4> reference_itp_;  // lit pixels of the upper half, which mirrors the lower
+  std::size_t half_pixels_ = 0;  // of the sphere's upper half, lit or not
+  // Lit pixels of the upper half, light after light: wi and wo column by column. The lower half mirrors it.
+  std::array<std::vector<double>, 6> directions_;
+  std::vector<Chunk> chunks_;
+  Colours upper_;
+  // Of a table, whose values at phi_d and -phi_d may differ; empty for a material, whose halves are alike.
+  Colours lower_;
 };
 
 }  // namespace brdfit::render

@@ -31,7 +31,8 @@ struct Difference {
       state;  // kValue where both have one; otherwise the reference's state, or the model's
 };
 
-// Throws std::invalid_argument when the sizes differ. Exposure multiplies signed and absolute differences.
+// Throws std::invalid_argument when the sizes differ. Exposure multiplies signed and absolute differences;
+// those beyond the range of a float are its largest number. For log-ratio a negative value counts as 0.
 Difference difference_of(const Image& model, const Image& reference, DifferenceKind kind,
                          const ViewOptions& view);
 
@@ -39,11 +40,16 @@ Difference difference_of(const Image& model, const Image& reference, DifferenceK
 // at least.
 double difference_range(std::span<const Difference> all);
 
+// Share of the values of all that are beyond the range, in [0, 1]; 0 if there are none.
+double share_beyond(std::span<const Difference> all, double range);
+
 // Signed kinds: blue below, white at 0, red above. Absolute: white to dark red. Values beyond the range have
-// the end's colour. Pixels without a value as in to_picture.
+// the end's colour. Lightness falls evenly from white to both ends. Pixels without a value as in to_picture.
+// Throws std::invalid_argument unless range is finite and above 0.
 Picture difference_picture(const Difference& difference, DifferenceKind kind, double range);
 
-// The bar that explains the colours: height pixels high, with ticks and numbers and the unit.
+// The bar that explains the colours: height pixels high, with ticks and numbers and the unit (may be empty).
+// Throws as difference_picture.
 Picture colour_bar(DifferenceKind kind, double range, const std::string& unit, int height, int text_px);
 
 }  // namespace brdfit::render

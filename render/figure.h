@@ -18,8 +18,11 @@ struct FigureOptions {
   bool regions = false;  // names of the four regions: Fresnel, specular, retroreflection, diffuse
 };
 
+// Size of the text beside a picture of that many pixels: legible at half size too.
+int figure_text_px(int picture_px);
+
 // The states other than kValue and kOutside that a picture shows, in words: "312 pixels not measured
-// (hatched)"; empty if there are none.
+// (hatched grey); 3 pixels negative (hatched cyan)"; empty if there are none.
 std::string describe_missing(const Image& image);
 
 // A slice with axes. Text grows with the picture, so that it is legible at half size.

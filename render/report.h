@@ -38,16 +38,18 @@ struct ReportFit {
   std::vector<std::string> effects;
   std::vector<ReportParameter> parameters;
   std::vector<std::string> notes;
+  // By phase. The table shows the one called "fit" or "total", or the sum where there is neither.
   std::vector<std::pair<std::string, double>> timings_seconds;
   std::vector<std::pair<std::string, std::string>> provenance;  // input, SHA-256, version, command, options
 };
 
-// A picture: PNG bytes or SVG text.
+// A picture: PNG bytes or SVG text. A size of 0 is taken from the picture itself. SVG stands in the page as
+// it is: only what this room draws may be given.
 struct ReportPicture {
   std::string caption;
   std::string alt;  // for those who cannot see it
   std::vector<unsigned char> png;
-  std::string svg;  // without an XML header; used where png is empty
+  std::string svg;  // used where png is empty; an XML header is left out
   int width_px = 0;
   int height_px = 0;
 };

@@ -33,15 +33,24 @@ struct SliceOptions {
   SliceSampling sampling = SliceSampling::kSmooth;
   Grid grid;  // of the cells for kStored when a material is drawn; a table uses its own
 
+  // Size in 1..16384, a finite phi_d, 1..65536 cells along each side of the grid.
   bool is_valid(std::string* why) const;
 };
 
-// The angles that a pixel shows: those of its centre, or of the stored cell.
+// The angles that a pixel (0 to size - 1, from the top left) shows: those of its centre, or of the stored
+// cell of options.grid. A centre on the edge of two cells belongs to the one that begins there.
 HalfDiff slice_angles(const SliceOptions& options, int x, int y);
 
 // f or f cos_i, in sr^-1, of each pixel; for a material with kF f(wi, wo), not the mean of both orders. A
 // pixel whose own cell of a table is not measured has that state even where neighbours could be interpolated.
-// Parallel over rows. Throws std::invalid_argument when the options are not valid.
+//
+// A pixel is below the horizon when a cosine at the angles that it shows is below 1e-9, whatever a table
+// holds there: closer, rounding would decide. MERL's files and the error measures draw the same line. It also
+// bounds f, which Proxima and correlated masking let grow towards the horizon: values of a valid material
+// stay below 1e22. A material that is not valid may exceed a float; such pixels are kNotFinite.
+//
+// Parallel over rows; memory is that of the image and a row per thread. Throws std::invalid_argument when the
+// options are not valid or the table is empty.
 Image draw_slice(const Subject& subject, const SliceOptions& options);
 
 }  // namespace brdfit::render

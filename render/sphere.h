@@ -26,13 +26,35 @@ enum class Shape {
   kPatch,
 };
 
-// The pair of directions at a pixel's centre in the local frame of the surface; lit: the light is above the
-// horizon. inside: the pixel shows the surface.
+// The pair of directions at a pixel's centre in the local frame of the surface. inside: the pixel shows the
+// surface; if not, the directions mean nothing. The light is above the horizon where wi.z > 0.
 struct SurfacePoint {
   bool inside = false;
   Vec3 wi;
   Vec3 wo;
 };
+
+// A shape under a light, seen on size x size pixels. The tangent of a sphere runs around the y axis; that of
+// the patch lies in the plane of camera and light. The patch's nearer edge touches the picture's borders.
+class Scene {
+ public:
+  // Throws std::invalid_argument unless size is in 1..16384 and the angle in [0, 180).
+  Scene(Shape shape, double light_angle_deg, int size);
+
+  SurfacePoint at(int x, int y) const;
+
+ private:
+  SurfacePoint on_sphere(int x, int y) const;
+  SurfacePoint on_patch(int x, int y) const;
+
+  Shape shape_;
+  int size_;
+  Vec3 light_;       // in the world
+  double half_sin_;  // of half the light's angle
+  double half_cos_;
+};
+
+// One pixel of a scene.
 SurfacePoint surface_point(Shape shape, double light_angle_deg, int size, int x, int y);
 
 // Radiance, size x size pixels, each at its centre. Where the light is below the horizon it is 0 (state
@@ -59,7 +81,8 @@ struct EnvironmentImage {
 // A sphere under an environment. For isotropic materials radiance depends only on the inclination of the view
 // (and linearly on two vectors for the gradient), so the quadrature is done once per inclination: Gauss-
 // Legendre over half vectors up to the horizon, doubled until the error estimate is below half an 8-bit step.
-// Deterministic. Directions that a table does not hold contribute nothing.
+// Deterministic. Directions that a table does not hold contribute nothing. Throws std::invalid_argument for a
+// size that is not in 1..16384, and for an anisotropic material (Burley with anisotropic > 0).
 EnvironmentImage draw_environment(const Subject& subject, Environment environment, int size);
 
 }  // namespace brdfit::render

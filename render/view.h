@@ -32,14 +32,17 @@ std::optional<ViewTransform> view_transform_by_name(std::string_view name);
 std::optional<Channel> channel_by_name(std::string_view name);
 
 // Gran Turismo tone mapper with the published defaults: maximum 1, contrast 1, linear section from 0.22 over
-// 0.4 of the rest, black tightness 1.33, pedestal 0. value >= 0; the result is below 1.
+// 0.4 of the rest, black tightness 1.33, pedestal 0. value >= 0; the result is at most 1.
 double gran_turismo(double value);
 
-// Display value in [0, 1] of a linear value (before rounding to 8 bits), exposure not applied.
+// Display value in [0, 1] of a linear value (before rounding to 8 bits), exposure not applied. Negative
+// values and NaN, which no Image holds, give 0.
 double display_value(ViewTransform transform, double value);
 
-// The 8-bit picture. Pixels without a value are drawn by their state: outside dark grey, below the horizon
-// darker still, unmeasured hatched grey, not finite hatched magenta, negative hatched cyan.
+// The 8-bit picture: codes are 255 display_value(2^exposure_stops value), rounded to nearest. Pixels without
+// a value are drawn by their state: outside dark grey, below the horizon darker still, unmeasured hatched
+// grey, not finite hatched magenta, negative hatched cyan. Parallel over rows. Throws std::invalid_argument
+// when the exposure is not finite.
 Picture to_picture(const Image& image, const ViewOptions& options);
 
 }  // namespace brdfit::render

@@ -9,10 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "data/synthetic/generate.h"
-#include "data/synthetic/random_material.h"
-#include "tests/program.h"
-#include "tests/temp_folder.h"
+#include "tests/cli_fixture.h"
 
 namespace brdfit {
 namespace {
@@ -22,46 +19,15 @@ using testing::HasSubstr;
 using testing::StartsWith;
 using tests::ProgramResult;
 
-// A folder with one small noise-free table, and the program run in it.
-class Cli : public testing::Test {
- protected:
-  std::filesystem::path path(const std::string& name) const { return folder_.path() / name; }
-  std::string quoted(const std::string& name) const { return "'" + path(name).string() + "'"; }
-
-  ProgramResult run(const std::string& arguments) {
-    std::filesystem::create_directories(path("streams"));
-    return tests::run_brdfit(arguments, path("streams"));
-  }
-
-  void make_table(const std::string& name, Model model, std::uint64_t seed) {
-    synthetic::Recipe recipe;
-    recipe.name = name;
-    recipe.material = synthetic::random_material(model, Tier::kFull, effects_of(model), {}, seed);
-    recipe.grid.n_theta_h = 30;
-    recipe.grid.n_theta_d = 30;
-    recipe.grid.n_phi_d = 36;
-    synthetic::generate(recipe, path(name + ".binary"));
-  }
-
-  void write_bytes(const std::string& name, const std::string& bytes) {
-    tests::write_text(path(name), bytes);
-  }
-
-  std::size_t files_in(const std::string& name) const {
-    if (!std::filesystem::exists(path(name))) return 0;
-    const std::filesystem::directory_iterator files(path(name));
-    return static_cast<std::size_t>(std::distance(begin(files), end(files)));
-  }
-
-  tests::TempFolder folder_;
-};
+using Cli = tests::CliFixture;
 
 std::size_t lines_of(const std::string& text) {
   return static_cast<std::size_t>(std::ranges::count(text, '\n'));
 }
 
 TEST_F(Cli, HelpGoesToStandardOutputWithAnExampleAndTheDefaultsOfTheCode) {
-  for (const char* command : {"fit", "table", "info", "synth", "export", "demo"}) {
+  for (const char* command :
+       {"fit", "table", "info", "slice", "sphere", "compare", "report", "synth", "export", "demo"}) {
     const ProgramResult help = run(std::string(command) + " --help");
     EXPECT_EQ(help.exit_code, 0) << command;
     EXPECT_THAT(help.out, HasSubstr("Example: brdfit ")) << command;
@@ -174,6 +140,10 @@ TEST_F(Cli, AResultIsTheSameToTheByteButForItsTimings) {
   ASSERT_TRUE(one["fit"].contains("timings_seconds"));
   one["fit"].erase("timings_seconds");
   two["fit"].erase("timings_seconds");
+  // The two command lines name different folders and threads.
+  EXPECT_THAT(one["fit"]["command"].get<std::string>(), HasSubstr("--threads 1"));
+  one["fit"].erase("command");
+  two["fit"].erase("command");
   EXPECT_EQ(one.dump(), two.dump());
 }
 
@@ -191,9 +161,18 @@ TEST_F(Cli, JsonOfFitHasTheNamesThatScriptsRelyOn) {
         EXPECT_TRUE(entry.at(place).at(measure).is_number()) << model << place << measure;
       }
     }
+    EXPECT_GE(entry.at("sphere_delta_e").get<double>(), 0.0);
+    double by_light = 0.0;
+    for (const char* light : {"0", "90", "120", "140"}) {
+      by_light += entry.at("sphere_delta_e_by_light").at(light).get<double>();
+    }
+    EXPECT_GE(by_light, 4.0 * 0.9 * entry.at("sphere_delta_e").get<double>());
+    EXPECT_TRUE(entry.at("sphere_pixels_skipped").is_number_unsigned());
     EXPECT_GT(entry.at("free_parameters").get<int>(), 0);
     EXPECT_GT(entry.at("timings_seconds").at("load").get<double>(), 0.0);
-    EXPECT_GT(entry.at("timings_seconds").at("fit").get<double>(), 0.0);
+    EXPECT_GT(entry.at("timings_seconds").at("sphere").get<double>(), 0.0);
+    EXPECT_GT(entry.at("timings_seconds").at("fit").get<double>(),
+              entry.at("timings_seconds").at("sphere").get<double>());
   }
 }
 
@@ -215,6 +194,13 @@ TEST_F(Cli, AnExportedFitHasTheErrorsThatTheFitPrinted) {
     ASSERT_EQ(table.exit_code, 0) << table.err;
     const auto compared = json::parse(table.out);
     for (const auto& row : compared["rows"]) {
+      const double expected_delta_e = fitted[model]["sphere_delta_e"].get<double>();
+      if (row["candidate"].get<std::string>().ends_with(".json")) {
+        EXPECT_NEAR(row["sphere_delta_e"].get<double>(), expected_delta_e, 1e-4 * expected_delta_e) << model;
+      } else {
+        // Interpolated between cells now, as the reference is.
+        EXPECT_GT(row["sphere_delta_e"].get<double>(), 0.0) << model;
+      }
       for (const char* place : {"slice", "table"}) {
         for (const auto& [measure, value] : fitted[model][place].items()) {
           const double expected = value.get<double>();

@@ -319,6 +319,8 @@ TEST_F(FitSchema, WrongValuesInTheEvidenceAreRefused) {
     ["/options/fixed/metallic", []], ["/options/fixed/base_color", []],
     ["/options/fixed/base_color", [0, 0, 0, 0]], ["/parameters/base_color/channel_status", ["ok", "ok"]],
     ["/parameters/base_color/channel_status", ["ok", "ok", "ok", "ok"]], ["/notes", [1]],
+    ["/sphere_delta_e", -1], ["/sphere_delta_e_by_light", {}], ["/sphere_delta_e_by_light/90", -1],
+    ["/sphere_delta_e_by_light/45", 1], ["/sphere_pixels_skipped", 0.5], ["/timings_seconds/sphere", -1],
     ["/notes", [""]], ["/timings_seconds/fit", -1]
   ])");
   for (const Json& change : wrong) {

@@ -1,0 +1,44 @@
+// Sphere dE beside the other measures of a fit, with the time that it takes.
+#ifndef BRDFIT_CLI_SPHERE_JUDGE_H_
+#define BRDFIT_CLI_SPHERE_JUDGE_H_
+
+#include <cstddef>
+
+#include "cli/common.h"
+#include "fit/fit.h"
+#include "render/delta_e.h"
+
+namespace brdfit::cli {
+
+struct JudgedSphere {
+  render::SphereDeltaE delta_e;
+  double seconds = 0.0;
+};
+
+// A fit with what its spheres look like. (fit/ does not know how to draw.)
+struct JudgedFit {
+  fit::FitResult fit;
+  JudgedSphere sphere;
+
+  double total_seconds() const { return fit.timings.total_seconds + sphere.seconds; }
+};
+
+// Judges candidates against one table. The time that its reference takes is shared among the candidates.
+class TableJudge {
+ public:
+  TableJudge(const MeasuredTable& reference, std::size_t candidates);
+
+  JudgedSphere operator()(const render::Subject& candidate) const;
+
+ private:
+  Stopwatch watch_;  // begins before the judge does
+  render::SphereJudge judge_;
+  double share_seconds_;
+};
+
+// Fits, then judges.
+JudgedFit fit_and_judge(const MeasuredTable& table, const fit::FitOptions& options, const TableJudge& judge);
+
+}  // namespace brdfit::cli
+
+#endif  // BRDFIT_CLI_SPHERE_JUDGE_H_
