@@ -8,6 +8,7 @@
 
 #include "cli/result_text.h"
 #include "fit/metrics.h"
+#include "measured/symmetry.h"
 #include "render/delta_e.h"
 #include "render/lobes.h"
 
@@ -28,10 +29,19 @@ std::string names_of(std::span<const Column> columns) {
   return names;
 }
 
+// A seam in a sphere of a table is explained by this.
+std::string asymmetry_line(const MeasuredTable& table) {
+  return fmt::format("φd against 180° − φd\t{:.1f}%", mirror_asymmetry_pct(table));
+}
+
 // Columns without the lines, for pictures that stand below the first.
 std::vector<Column> bare(std::span<const Column> columns) {
   std::vector<Column> result(columns.begin(), columns.end());
-  for (Column& column : result) column.lines.clear();
+  for (Column& column : result) {
+    column.lines.clear();
+    const MeasuredTable* table = column.subject.table();
+    if (table != nullptr) column.lines.push_back(asymmetry_line(*table));
+  }
   return result;
 }
 
@@ -138,6 +148,7 @@ std::vector<std::string> reference_lines(const MeasuredTable& reference) {
     const std::size_t count = counts[static_cast<std::size_t>(state)];
     if (count > 0) lines.push_back(fmt::format("{}\t{}", name, count));
   };
+  lines.push_back(asymmetry_line(reference));
   add("cells with NaN or infinity", CellState::kNotFinite);
   add("cells partly negative", CellState::kNegative);
   return lines;

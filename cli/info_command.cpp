@@ -8,10 +8,12 @@
 #include "brdf/albedo.h"
 #include "cli/common.h"
 #include "cli/result_text.h"
+#include "cli/subject_input.h"
 #include "cli/table_input.h"
 #include "cli/threads.h"
 #include "io/material_json.h"
 #include "io/sha256.h"
+#include "measured/symmetry.h"
 
 namespace brdfit::cli {
 namespace {
@@ -40,6 +42,7 @@ int describe_table(const Arguments& a) {
   }
   const double valid_pct =
       100.0 * static_cast<double>(loaded.table.valid_count()) / static_cast<double>(grid.cell_count());
+  const double asymmetry_pct = mirror_asymmetry_pct(loaded.table);
   const std::string sha256 = io::sha256_of_file(a.file);
   if (a.common.json) {
     const io::Json json = {
@@ -51,6 +54,7 @@ int describe_table(const Arguments& a) {
         {"non_finite_values", loaded.report.non_finite_values},
         {"least", least},
         {"largest", largest},
+        {"mirror_asymmetry_pct", asymmetry_pct},
         {"sha256", sha256}};
     fmt::print("{}\n", json.dump(2));
     return kDone;
@@ -61,6 +65,12 @@ int describe_table(const Arguments& a) {
              loaded.table.valid_count(), grid.cell_count(), valid_pct, loaded.report.non_finite_values);
   fmt::print("f in sr^-1 from {:.4g} {:.4g} {:.4g} to {:.4g} {:.4g} {:.4g} (red, green, blue)\n", least[0],
              least[1], least[2], largest[0], largest[1], largest[2]);
+  fmt::print(
+      "cells at phi_d and 180 - phi_d, which are one in an isotropic material, differ by {:.2f}% (mean "
+      "log-ratio); "
+      "spheres show it as a seam\n",
+      asymmetry_pct);
+  for (const std::string& warning : cell_warnings(loaded.table)) fmt::print("{}\n", warning);
   fmt::print("sha256 {}\n", sha256);
   return kDone;
 }

@@ -88,9 +88,11 @@ Json evidence_to_json(const JudgedFit& judged, const Provenance& provenance) {
   const fit::FitResult& result = judged.fit;
   Json json;
   json["version"] = provenance.version;
-  if (!provenance.command.empty()) json["command"] = provenance.command;
-  json["input"] = {{"name", provenance.input}, {"sha256", provenance.sha256}, {"cell", provenance.cell}};
-  if (!provenance.path.empty()) json["input"]["path"] = provenance.path;
+  json["command"] = provenance.command;
+  json["input"] = {{"name", provenance.input},
+                   {"sha256", provenance.sha256},
+                   {"cell", provenance.cell},
+                   {"path", provenance.path}};
   if (provenance.lenient) json["input"]["non_finite_values"] = provenance.non_finite_values;
   json["options"] = options_to_json(result.options);
   json["observations"] = result.observations;

@@ -47,12 +47,13 @@ std::vector<std::string> cell_warnings(const MeasuredTable& table) {
   const std::size_t not_finite = counts[static_cast<std::size_t>(CellState::kNotFinite)];
   std::vector<std::string> warnings;
   if (not_finite > 0) {
-    warnings.push_back(
-        fmt::format("{} cells hold NaN or infinity; they are left out and hatched magenta", not_finite));
+    warnings.push_back(fmt::format(
+        "{} cells hold NaN or infinity; they are left out, and hatched magenta in pictures", not_finite));
   }
   if (negative > 0) {
     warnings.push_back(fmt::format(
-        "{} cells are negative in some channels only; they are left out and hatched cyan", negative));
+        "{} cells are negative in some channels only; they are left out, and hatched cyan in pictures",
+        negative));
   }
   return warnings;
 }
