@@ -1,3 +1,4 @@
+// Ticks, numbers and names around a slice.
 #include "render/axes.h"
 
 #include <algorithm>
@@ -96,7 +97,7 @@ void draw_theta_d(Canvas& canvas, int left, int y, const SliceOptions& slice, Ax
 
 // White on a dark rim: legible on any picture.
 void outlined_text(Canvas& canvas, int x, int y, std::string_view text, TextStyle style) {
-  const int rim = std::max(1, style.size_px / 12);
+  const int rim = std::max(1, style.size_px / 8);
   style.colour = kInk;
   for (int dy = -rim; dy <= rim; ++dy) {
     for (int dx = -rim; dx <= rim; ++dx) {

@@ -1,3 +1,4 @@
+// Drawing into 8-bit pictures; everything is cut off at the borders.
 #include "render/canvas.h"
 
 #include <algorithm>

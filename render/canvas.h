@@ -32,6 +32,7 @@ struct TextStyle {
 // Coordinates are pixels from the top left corner; what lies outside is cut off.
 class Canvas {
  public:
+  // Throws std::invalid_argument when a side is below 1 pixel.
   Canvas(int width, int height, Colour8 background);
 
   int width() const { return picture_.width; }
@@ -39,11 +40,13 @@ class Canvas {
 
   void fill(int x, int y, int width, int height, Colour8 colour);
   void frame(int x, int y, int width, int height, Colour8 colour);  // one pixel wide, inside the rectangle
-  void line(int x0, int y0, int x1, int y1, Colour8 colour);        // horizontal or vertical, one pixel wide
+  // One pixel wide, with both ends. Throws std::invalid_argument unless it is horizontal or vertical.
+  void line(int x0, int y0, int x1, int y1, Colour8 colour);
   void paste(const Picture& picture, int x, int y);
 
   // UTF-8, rendered with DejaVu Sans through FreeType. Throws std::runtime_error that names the package to
-  // install (fonts-dejavu-core) when the font is not there.
+  // install (fonts-dejavu-core) when the font is not there, std::invalid_argument for a size below 1 pixel.
+  // Bytes that are not UTF-8 are shown as U+FFFD, control characters as spaces.
   void text(int x, int y, std::string_view text, const TextStyle& style);
 
   const Picture& picture() const { return picture_; }
@@ -52,7 +55,7 @@ class Canvas {
   Picture picture_;
 };
 
-// Width in pixels that a line of text takes.
+// Width in pixels that a line of text takes. Throws as Canvas::text.
 int text_width(std::string_view text, int size_px, FontWeight weight);
 
 }  // namespace brdfit::render

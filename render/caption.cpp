@@ -1,3 +1,4 @@
+// Numbers and settings in words.
 #include "render/caption.h"
 
 #include <fmt/format.h>

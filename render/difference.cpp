@@ -1,3 +1,4 @@
+// Differences, their colours, and the bar that explains the colours.
 #include "render/difference.h"
 
 #include <fmt/format.h>

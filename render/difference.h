@@ -27,8 +27,8 @@ struct Difference {
   int width = 0;
   int height = 0;
   std::vector<float> value;  // 0 where the state is not kValue
-  std::vector<PixelState>
-      state;  // kValue where both have one; otherwise the reference's state, or the model's
+  // kValue where both have one; otherwise the reference's state, or the model's.
+  std::vector<PixelState> state;
 };
 
 // Throws std::invalid_argument when the sizes differ. Exposure multiplies signed and absolute differences;

@@ -1,3 +1,4 @@
+// One picture on a page of its own.
 #include "render/figure.h"
 
 #include <algorithm>

@@ -120,6 +120,9 @@ std::pair<char32_t, std::size_t> decode_at(std::string_view text, std::size_t be
     if ((byte(begin + k) & 0xC0) != 0x80) return {U'\uFFFD', begin + 1};
     c = (c << 6) | (byte(begin + k) & 0x3FU);
   }
+  // Nor is UTF-8 what a shorter form could say, half of a surrogate pair, or what is beyond the last plane.
+  const char32_t least = length == 4 ? 0x10000 : length == 3 ? 0x800 : 0x80;
+  if (c < least || (c >= 0xD800 && c < 0xE000) || c > 0x10FFFF) return {U'\uFFFD', begin + 1};
   return {c, begin + length};
 }
 

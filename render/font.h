@@ -2,6 +2,7 @@
 #ifndef BRDFIT_RENDER_FONT_H_
 #define BRDFIT_RENDER_FONT_H_
 
+#include <cstddef>
 #include <cstdint>
 #include <string>
 #include <string_view>
@@ -25,8 +26,8 @@ struct Glyph {
 // spaces. Throws std::runtime_error that names the package to install when the font is not found, and
 // std::invalid_argument for a size below 1.
 //
-// Glyphs are kept for the life of the program, by character, size and weight. What is drawn does not depend on what is kept. May be
-// called from any thread.
+// Glyphs are kept for the life of the program, by character, size and weight; what is drawn does not depend
+// on what is kept. May be called from any thread.
 std::vector<const Glyph*> glyphs_of(std::string_view text, int size_px, FontWeight weight);
 
 // Code points of UTF-8 text, as above.

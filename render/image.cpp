@@ -1,3 +1,4 @@
+// Pictures in memory.
 #include "render/image.h"
 
 namespace brdfit::render {

@@ -32,8 +32,11 @@ struct PanelOptions {
   bool regions = false;
 };
 
-// Slices on one pixel grid (that of the reference's table for stored sampling). slice.size is that of each
-// picture. The first column is the reference.
+// All panels throw std::invalid_argument when there is no column or no light, for a range that is negative or
+// not finite, and as draw_slice, draw_lit and draw_environment do. They are the same whatever the threads.
+
+// Slices on one pixel grid (for stored sampling that of the reference's table, if it is one). slice.size is
+// that of each picture. The first column is the reference.
 Picture slice_panel(std::span<const Column> columns, const SliceOptions& slice, const PanelOptions& options);
 
 // Spheres (or patches) under the given light angles, one row each, every row followed by its differences.

@@ -1,6 +1,10 @@
+// Wrapping and aligning lines of text.
 #include "render/text_layout.h"
 
+#include <algorithm>
 #include <cmath>
+#include <cstddef>
+#include <utility>
 
 #include "render/font.h"
 #include "render/view.h"
