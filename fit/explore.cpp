@@ -12,9 +12,9 @@ namespace brdfit::fit {
 namespace {
 
 // Strong damping at first keeps a start in its own valley; the tolerances are those of a search.
-constexpr double kFirstDamping = 0.01;
-constexpr DescentOptions kStage = {4, 1e-3, kFirstDamping};
-constexpr DescentOptions kJoint = {20, 1e-5, kFirstDamping};
+constexpr double kFirstDamping = 0.1;
+constexpr DescentOptions kStage = {8, 1e-3, kFirstDamping};
+constexpr DescentOptions kJoint = {30, 1e-4, kFirstDamping};
 constexpr DescentOptions kPolish = {60, 1e-7, kFirstDamping};
 constexpr std::size_t kParents = 4;   // that are kicked in a round
 constexpr std::size_t kPolished = 6;  // of the candidates in the end
@@ -22,7 +22,7 @@ constexpr std::size_t kPolished = 6;  // of the candidates in the end
 constexpr double kSameValley = 0.01;
 // Rounds of kicks, and how many stages it takes for all of them: with fewer there is less to kick, and a kick
 // of everything would be a start.
-constexpr int kKickRounds = 5;
+constexpr int kKickRounds = 6;
 constexpr int kAllStages = 5;
 
 // Products of one sign stay on the side where they begin.
