@@ -5,26 +5,24 @@
 
 #include <algorithm>
 
+#include "fit/descend.h"
 #include "fit/starts.h"
 
 namespace brdfit::fit {
 namespace {
 
-// A short trust region at first keeps a start in its own valley; the tolerances are those of a search.
-constexpr double kFirstRadius = 100.0;
-constexpr SolveOptions kStage = {4, 1e-3, 1e-10, 1e-8, kFirstRadius};
-constexpr SolveOptions kJoint = {20, 1e-5, 1e-10, 1e-8, kFirstRadius};
-constexpr SolveOptions kPolish = {60, 1e-7, 1e-12, 1e-9, kFirstRadius};
-constexpr std::size_t kParents =
-    4;  // that are kicked in a round   // that are kicked in a round   // that are kicked in a round   //
-        // that are kicked in a round   // that are kicked in a round
-constexpr std::size_t kPolished =
-    6;  // of the candidates in the end  // of the candidates in the end  // of the candidates in the end
+// Strong damping at first keeps a start in its own valley; the tolerances are those of a search.
+constexpr double kFirstDamping = 0.1;
+constexpr DescentOptions kStage = {8, 1e-3, kFirstDamping};
+constexpr DescentOptions kJoint = {30, 1e-4, kFirstDamping};
+constexpr DescentOptions kPolish = {60, 1e-7, kFirstDamping};
+constexpr std::size_t kParents = 4;   // that are kicked in a round
+constexpr std::size_t kPolished = 6;  // of the candidates in the end
 // Candidates whose costs differ by less than this share are taken for the same minimum.
 constexpr double kSameValley = 0.01;
 // Rounds of kicks, and how many stages it takes for all of them: with fewer there is less to kick, and a kick
 // of everything would be a start.
-constexpr int kKickRounds = 5;
+constexpr int kKickRounds = 6;
 constexpr int kAllStages = 5;
 
 // Products of one sign stay on the side where they begin.
@@ -40,9 +38,9 @@ Box box_for(const Parametrisation& parametrisation, const std::vector<double>& x
   return box;
 }
 
-void advance(const Problem& problem, Candidate& candidate, const Box& box, const SolveOptions& options) {
+void advance(const Problem& problem, Candidate& candidate, const Box& box, const DescentOptions& options) {
   const int evaluations = candidate.solution.evaluations;
-  candidate.solution = solve(problem, candidate.solution.x, box, options);
+  candidate.solution = descend(problem, candidate.solution.x, box, options);
   candidate.solution.evaluations += evaluations;
 }
 
@@ -116,9 +114,7 @@ void polish(const Problem& problem, std::vector<Candidate>& candidates) {
   const std::vector<std::size_t> picked = distinct_costs(candidates, kPolished, kSameValley);
   tbb::parallel_for(std::size_t{0}, picked.size(), [&](std::size_t k) {
     Candidate& candidate = candidates[picked[k]];
-    const int evaluations = candidate.solution.evaluations;
-    candidate.solution = solve_pinning(problem, candidate.solution.x, candidate.box, kPolish);
-    candidate.solution.evaluations += evaluations;
+    advance(problem, candidate, candidate.box, kPolish);
   });
   sort_best_first(candidates);
 }

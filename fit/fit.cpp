@@ -10,6 +10,7 @@
 #include <stdexcept>
 
 #include "brdf/albedo.h"
+#include "fit/descend.h"
 #include "fit/explore.h"
 #include "fit/metallic.h"
 #include "fit/problem.h"
@@ -26,8 +27,9 @@ constexpr std::size_t kExploredOfSlices = 2400;
 constexpr double kWidening = 3.0;
 constexpr std::size_t kRefined = 2;  // starts that are refined on all samples
 
-// Iterations after which candidates are compared; only the best is carried to its minimum.
-constexpr int kBriefIterations = 8;
+// Candidates are compared after a brief descent; only the best is carried to its minimum.
+constexpr DescentOptions kBrief = {8, 1e-4, 1e-4};
+constexpr DescentOptions kThorough = {60, 1e-7, 1e-4};
 
 // A directional albedo above this is more than the quadrature's error above 1.
 constexpr double kFurnaceBound = 1.01;
@@ -152,25 +154,22 @@ class Fitter {
     result_.starts_near_best = static_cast<int>(std::ranges::count_if(
         candidates_, [&](const Candidate& c) { return c.solution.cost <= 1.05 * best_cost; }));
     std::vector<Decided> refined;
-    for (Candidate& candidate : distinct(candidates_, kRefined)) {
+    for (const Candidate& candidate : distinct(candidates_, kRefined)) {
       refined.push_back(decide_metallic(on_part_, candidate));
       result_.evaluations += refined.back().evaluations;
     }
-    SolveOptions brief;
-    brief.max_iterations = refined.size() > 1 ? kBriefIterations : SolveOptions().max_iterations;
     tbb::parallel_for(std::size_t{0}, refined.size(), [&](std::size_t k) {
       Candidate& candidate = refined[k].candidate;
-      candidate.solution = solve_pinning(on_all_, candidate.solution.x, candidate.box, brief);
+      candidate.solution = descend(on_all_, candidate.solution.x, candidate.box, kBrief);
     });
     for (const Decided& decided : refined) result_.evaluations += decided.candidate.solution.evaluations;
     published_ =
         *std::ranges::min_element(refined, {}, [](const Decided& d) { return d.candidate.solution.cost; });
     Solution& solution = published_.candidate.solution;
-    if (solution.converged) return;
-    const int iterations = solution.iterations;
-    solution = solve_pinning(on_all_, solution.x, published_.candidate.box, {});
-    solution.iterations += iterations;
-    result_.evaluations += solution.evaluations;
+    // Near the minimum already, Ceres has little left to do.
+    const Solution near = descend(on_all_, solution.x, published_.candidate.box, kThorough);
+    solution = solve_pinning(on_all_, near.x, published_.candidate.box, {});
+    result_.evaluations += near.evaluations + solution.evaluations;
   }
 
   void look_at_evidence() {

@@ -1,13 +1,14 @@
 // Vectorised Gram matrices. Compiled once for every instruction set.
 //
-// Shapes are differentiated by running the kernels on dual numbers. A dual number has fewer slots for
-// derivatives than a shape has parameters: no term depends on more than a few, and parameters that never meet
-// in a term share a slot. The combination of terms to a channel is differentiated by hand, as it is linear in
-// nearly everything.
+// Terms of a block of samples are evaluated first, then the rows of one channel after the other, so that a
+// channel's rows and their products stay in the cache.
 #include "fit/gram.h"
 
-#include "brdf/simd/dual.h"
+#include <type_traits>
+
 #include "brdf/simd/model_lanes.h"
+#include "fit/gram_products.h"
+#include "fit/gram_rows.h"
 #include "fit/loss_kernel.h"
 
 namespace brdfit::simd::BRDFIT_SIMD_ISA {
@@ -16,120 +17,6 @@ namespace {
 using fit::Gram;
 using fit::GramJob;
 using fit::kGramSide;
-
-template <int N>
-using D = Dual<double, N>;
-
-// Each model: prepare() evaluates its terms, y() is a channel's f cos_i, and derivatives() are those of y
-// times a slope. The slope goes into factors that derivatives share.
-struct LambertGgxRows : LambertGgxLanes {
-  static constexpr int coefficients = fit::kLambertGgxCoefficients;
-  using LambertGgxLanes::LambertGgxLanes;
-  kernel::LambertGgxTerms<D<1>> at;
-  kernel::LambertGgxTerms<V> value;
-
-  HWY_INLINE void prepare(const kernel::Geometry<V>& g, const kernel::GeometryLogs<V>&) {
-    const kernel::LambertGgxShape<D<1>> s = {D<1>(shape.alpha, 0)};
-    at = kernel::lambert_ggx_terms(s, g, masking, diffuse);
-    value = {at.diffuse.a, at.falloff.a, at.specular.a};
-  }
-  HWY_INLINE V y(int c) const { return combine(c, value); }
-  HWY_INLINE void derivatives(int c, V slope, V* dy) const {
-    const V specular = slope * value.specular;
-    const V f = slope * kernel::fresnel(colour[c].f0, value.falloff);
-    dy[0] = slope * colour[c].rho * at.diffuse.d[0] + f * at.specular.d[0];
-    dy[1] = slope * value.diffuse;
-    dy[2] = (V(1.0) - value.falloff) * specular;
-  }
-};
-
-struct BurleyRows : BurleyLanes {
-  static constexpr int coefficients = fit::kBurleyCoefficients;
-  using BurleyLanes::BurleyLanes;
-  kernel::BurleyTerms<D<2>> at;
-  kernel::BurleyTerms<V> value;
-
-  // Slots: diffuse (roughness, subsurface), specular (roughness, alpha), clearcoat (-, clearcoat_alpha).
-  HWY_INLINE void prepare(const kernel::Geometry<V>& g, const kernel::GeometryLogs<V>&) {
-    const kernel::BurleyShape<D<2>> s = {D<2>(shape.roughness, 0), D<2>(shape.subsurface, 1),
-                                         D<2>(shape.alpha_x, 1), D<2>(shape.alpha_y, 1),
-                                         D<2>(shape.clearcoat_alpha, 1)};
-    at = kernel::burley_terms(s, g, burley_g, effects);
-    value = {at.diffuse.a, at.sheen.a, at.falloff.a, at.specular.a, at.clearcoat.a};
-  }
-  HWY_INLINE V y(int c) const { return combine(c, value); }
-  HWY_INLINE void derivatives(int c, V slope, V* dy) const {
-    const V rho = slope * colour[c].rho;
-    const V f = slope * kernel::fresnel(colour[c].f0, value.falloff);
-    dy[0] = rho * at.diffuse.d[0] + f * at.specular.d[0];
-    dy[1] = rho * at.diffuse.d[1];
-    dy[2] = f * at.specular.d[1];
-    dy[3] = slope * colour[c].clearcoat * at.clearcoat.d[1];
-    dy[4] = slope * value.diffuse;
-    dy[5] = slope * value.sheen;
-    dy[6] = slope * ((V(1.0) - value.falloff) * value.specular);
-    dy[7] = slope * value.clearcoat;
-  }
-};
-
-struct CallistoRows : CallistoLanes {
-  static constexpr int coefficients = fit::kCallistoCoefficients;
-  using CallistoLanes::CallistoLanes;
-  kernel::CallistoTerms<D<3>> at;
-  kernel::CallistoTerms<V> value;
-
-  // Slots: diffuse (alpha_1), specular (alpha_1, alpha_2, opacity), fresnel and retro (exponent, tangent
-  // exponent), falloff (specular_falloff), terminator_step (terminator_length).
-  HWY_INLINE void prepare(const kernel::Geometry<V>& g, const kernel::GeometryLogs<V>& logs) {
-    const kernel::CallistoShape<D<3>> s = {D<3>(shape.alpha_1, 0),
-                                           D<3>(shape.alpha_2, 1),
-                                           D<3>(shape.opacity, 2),
-                                           D<3>(shape.fresnel_exponent, 0),
-                                           D<3>(shape.fresnel_tangent_exponent, 1),
-                                           D<3>(shape.retro_exponent, 0),
-                                           D<3>(shape.retro_tangent_exponent, 1),
-                                           D<3>(shape.specular_falloff, 0),
-                                           D<3>(shape.terminator_length, 0)};
-    at = kernel::callisto_terms(s, g, logs, masking, diffuse, effects);
-    value = {at.diffuse.a,  at.fresnel.a,    at.retro.a,          at.falloff.a,
-             at.specular.a, at.terminator.a, at.terminator_step.a};
-  }
-
-  HWY_INLINE V y(int c) const { return combine(c, value); }
-  // y = sum c2 with sum = gain_f gain_r rho diffuse + f specular, as callisto_combine writes it.
-  HWY_INLINE void derivatives(int c, V slope, V* dy) const {
-    const kernel::CallistoColour<V>& k = colour[c];
-    const V one(1.0);
-    const V gain_f = one + (k.fresnel - one) * value.fresnel;
-    const V gain_r = one + (k.retro - one) * value.retro;
-    const V f = kernel::fresnel(k.f0, value.falloff);
-    const V masked_step = (value.terminator_step - one) * value.terminator;
-    const V c2 = slope * (one + masked_step * k.terminator);
-    const V gains = gain_f * gain_r * c2;
-    const V diffuse_c2 = k.rho * value.diffuse * c2;
-    const V specular_c2 = value.specular * c2;
-    const V sum = slope * (gain_f * gain_r * k.rho * value.diffuse + f * value.specular);
-    const V by_specular = f * c2;
-    const V by_gain_f = gain_r * diffuse_c2;
-    const V by_gain_r = gain_f * diffuse_c2;
-    const V by_fresnel = by_gain_f * (k.fresnel - one);
-    const V by_retro = by_gain_r * (k.retro - one);
-    dy[0] = by_specular * at.specular.d[0] + gains * k.rho * at.diffuse.d[0];
-    dy[1] = by_specular * at.specular.d[1];
-    dy[2] = by_specular * at.specular.d[2];
-    dy[3] = by_fresnel * at.fresnel.d[0];
-    dy[4] = by_fresnel * at.fresnel.d[1];
-    dy[5] = by_retro * at.retro.d[0];
-    dy[6] = by_retro * at.retro.d[1];
-    dy[7] = (one - k.f0) * at.falloff.d[0] * specular_c2;
-    dy[8] = sum * value.terminator * k.terminator * at.terminator_step.d[0];
-    dy[9] = gains * value.diffuse;
-    dy[10] = (one - value.falloff) * specular_c2;
-    dy[11] = by_gain_f * value.fresnel;
-    dy[12] = by_gain_r * value.retro;
-    dy[13] = sum * masked_step;
-  }
-};
 
 // Over Lambert diffuse only the terminator's step tells wi from wo, as terms are per cos_i: the mean of both
 // orders is that of their steps.
@@ -144,124 +31,20 @@ struct CallistoMeanStepLanes : CallistoLanes {
   }
 };
 
-struct CallistoMeanStepRows : CallistoRows {
-  using CallistoRows::CallistoRows;
-  HWY_INLINE void prepare(const kernel::Geometry<V>& g, const kernel::GeometryLogs<V>& logs) {
-    CallistoRows::prepare(g, logs);
-    const D<3> length(shape.terminator_length, 0);
-    const D<3> other = kernel::smoothstep_from_zero(value.terminator * length, g.cos_o);
-    at.terminator_step = (at.terminator_step + other) * V(0.5);
-    value.terminator_step = at.terminator_step.a;
-  }
-};
-
-// Rows of one channel over a block of samples: derivatives, then the residual. Rows of all channels fit the
-// cache; their stride is not a power of two, so that they do not compete for the same lines of it.
-constexpr std::size_t kRowLength = 2 * kBlock;
-constexpr std::size_t kRowStride = kRowLength + 8;
-template <int Rows>
-using BlockRows = double[Rows][kRowStride];
-
-// Products of rows i <= j, summed over samples lane by lane.
-template <int Rows>
-struct Products {
-  V sums[Rows][Rows];
-
-  HWY_INLINE void clear() {
-    for (int i = 0; i < Rows; ++i) {
-      for (int j = i; j < Rows; ++j) sums[i][j] = V(0.0);
-    }
-  }
-};
-
-// Rows are multiplied tile by tile: a tile's sums and its rows fill the registers. (Highway's vectors are of
-// 64 bytes only where there are 32 registers.) All row counts, 4, 9 and 15, are cut with little waste.
-constexpr int kTile = V::size == 8 ? 5 : 3;
-
-// The tile of rows I... by J...; of a tile on the diagonal the upper triangle.
-template <int Rows, int I, int J>
-HWY_INLINE void add_tile(const BlockRows<Rows>& rows, std::size_t length, Products<Rows>& products) {
-  constexpr int height = I + kTile < Rows ? kTile : Rows - I;
-  constexpr int width = J + kTile < Rows ? kTile : Rows - J;
-  V sums[height][width];
-#pragma GCC unroll 5
-  for (int a = 0; a < height; ++a) {
-#pragma GCC unroll 5
-    for (int b = I == J ? a : 0; b < width; ++b) sums[a][b] = products.sums[I + a][J + b];
-  }
-  for (std::size_t at = 0; at < length; at += V::size) {
-    V left[height];
-#pragma GCC unroll 5
-    for (int a = 0; a < height; ++a) left[a] = V::load(rows[I + a] + at);
-#pragma GCC unroll 5
-    for (int b = 0; b < width; ++b) {
-      const V right = I == J ? left[b] : V::load(rows[J + b] + at);
-#pragma GCC unroll 5
-      for (int a = 0; a < (I == J ? b + 1 : height); ++a) {
-        sums[a][b] = multiply_add(left[a], right, sums[a][b]);
-      }
-    }
-  }
-#pragma GCC unroll 5
-  for (int a = 0; a < height; ++a) {
-#pragma GCC unroll 5
-    for (int b = I == J ? a : 0; b < width; ++b) products.sums[I + a][J + b] = sums[a][b];
-  }
-}
-
-// All tiles from (I, J) on.
-template <int Rows, int I = 0, int J = 0>
-HWY_INLINE void add_products(const BlockRows<Rows>& rows, std::size_t length, Products<Rows>& products) {
-  add_tile<Rows, I, J>(rows, length, products);
-  if constexpr (J + kTile < Rows) {
-    add_products<Rows, I, J + kTile>(rows, length, products);
-  } else if constexpr (I + kTile < Rows) {
-    add_products<Rows, I + kTile, I + kTile>(rows, length, products);
-  }
-}
-
 // How a channel's value counts: the slope and the residual of its row in the Gram matrix, and its cost, all
 // without the sample's weight.
+//
+// Two residuals r and u with slopes a and b and the same derivatives are one with slope s = sqrt(a^2 + b^2),
+// as far as the Gram matrix goes. At first s^2 and the product s times the residual, a r + b u, stand here.
+template <class S>
 struct Counted {
-  V slope;
-  V residual;
-  V cost;
+  Lanes<S> slope;
+  Lanes<S> residual;
+  Lanes<S> cost;
 };
 
-// The cost of a residual and the weight that its square has in it.
-HWY_INLINE V robust_cost(V residual, double width, V& weight) {
-  if (width == 0.0) {
-    weight = V(1.0);
-    return V(0.5) * residual * residual;
-  }
-  const V t = residual * V(1.0 / width);
-  const V root = sqrt(V(1.0) + t * t);
-  weight = V(1.0) / root;
-  return V(width * width) * (t * t / (root + V(1.0)));  // root - 1 without cancellation
-}
-
-// inverse_cos_i: 1 / cos_i, which all channels share.
-HWY_INLINE Counted count(const GramJob& job, int c, std::size_t at, V y, V cos_i, V inverse_cos_i) {
-  const auto main = fit::transform(job.loss, y, cos_i);
-  // Of f itself: the slope still lacks the factor 1 / cos_i.
-  const auto clipped = fit::transform(BRDFIT_LOSS_SLICE, y * inverse_cos_i, V(1.0));
-  const V r = main.value - V::load(job.target[c] + at);
-  const V u = clipped.value - V::load(job.clipped_target[c] + at);
-  const V share = V::load(job.clipped_share + at);
-  V weight;
-  V clipped_weight;
-  const V main_cost = robust_cost(r, job.robust_width, weight);
-  const V cost = multiply_add(share, robust_cost(u, job.clipped_width, clipped_weight), main_cost);
-  const V clipped_slope = clipped.slope * inverse_cos_i;
-  const V clipped_factor = share * clipped_weight * clipped_slope;
-  // Two residuals with slopes a and b and the same derivatives are one with slope sqrt(a^2 + b^2), as far as
-  // the Gram matrix goes.
-  const V slope_squared = weight * main.slope * main.slope + clipped_factor * clipped_slope;
-  const V slope = sqrt(kernel::at_least(slope_squared, V(1e-200)));
-  return {slope, (weight * main.slope * r + clipped_factor * u) / slope, cost};
-}
-
 // The same pair with the directions exchanged. Only their cosines differ in isotropic columns.
+template <class V>
 HWY_INLINE kernel::Geometry<V> swapped(const kernel::Geometry<V>& g) {
   kernel::Geometry<V> s = g;
   s.cos_i = g.cos_o;
@@ -269,64 +52,210 @@ HWY_INLINE kernel::Geometry<V> swapped(const kernel::Geometry<V>& g) {
   return s;
 }
 
+// Any loss. inverse_cos_i: 1 / cos_i, which all channels share.
+template <class S>
+struct AnyLoss {
+  using V = Lanes<S>;
+  int loss;
+  double width;
+  double clipped_width;
+
+  explicit HWY_INLINE AnyLoss(const GramJob& job)
+      : loss(job.loss), width(job.robust_width), clipped_width(job.clipped_width) {}
+
+  // The cost of a residual and the weight that its square has in it.
+  static HWY_INLINE V robust_cost(V residual, double width, V& weight) {
+    if (width == 0.0) {
+      weight = V(1.0);
+      return V(0.5) * residual * residual;
+    }
+    const V t = residual * V(1.0 / width);
+    const V root = sqrt(V(1.0) + t * t);
+    weight = V(1.0) / root;
+    return V(width * width) * (t * t / (root + V(1.0)));  // root - 1 without cancellation
+  }
+
+  HWY_INLINE Counted<S> count(V y, V cos_i, V inverse_cos_i, V target, V clipped_target, V share) const {
+    const auto main = fit::transform(loss, y, cos_i);
+    // Of f itself: the slope still lacks the factor 1 / cos_i.
+    const auto clipped = fit::transform(BRDFIT_LOSS_SLICE, y * inverse_cos_i, V(1.0));
+    const V r = main.value - target;
+    const V u = clipped.value - clipped_target;
+    V weight;
+    V clipped_weight;
+    const V main_cost = robust_cost(r, width, weight);
+    const V cost = multiply_add(share, robust_cost(u, clipped_width, clipped_weight), main_cost);
+    const V clipped_slope = clipped.slope * inverse_cos_i;
+    const V clipped_factor = share * clipped_weight * clipped_slope;
+    const V slope_squared = weight * main.slope * main.slope + clipped_factor * clipped_slope;
+    return {kernel::at_least(slope_squared, V(1e-30)), weight * main.slope * r + clipped_factor * u, cost};
+  }
+};
+
+// The log-ratio with both robust widths, which is what nearly every fit uses: one quotient for all.
+template <class S>
+struct RobustLogRatio {
+  using V = Lanes<S>;
+  V inverse_width_squared;
+  V width_squared;
+  V clipped_inverse_squared;
+  V clipped_squared;
+
+  explicit HWY_INLINE RobustLogRatio(const GramJob& job)
+      : inverse_width_squared(1.0 / (job.robust_width * job.robust_width)),
+        width_squared(job.robust_width * job.robust_width),
+        clipped_inverse_squared(1.0 / (job.clipped_width * job.clipped_width)),
+        clipped_squared(job.clipped_width * job.clipped_width) {}
+
+  HWY_INLINE Counted<S> count(V y, V, V inverse_cos_i, V target, V clipped_target, V share) const {
+    const V one(1.0);
+    const V shifted = y + V(fit::kLogFloor);
+    const V r = log(shifted) - target;
+    const V f = y * inverse_cos_i;
+    const auto is_clipped = f > one;
+    const V u = select(is_clipped, one, f) - clipped_target;
+    const V clipped_slope = select(is_clipped, V(0.0), inverse_cos_i);
+    const V t = r * r * inverse_width_squared;
+    const V v = u * u * clipped_inverse_squared;
+    const V root_t = sqrt(one + t);
+    const V root_v = sqrt(one + v);
+    // Costs are squared widths times root - 1, written without cancellation as t / (root + 1).
+    const V above_t = root_t + one;
+    const V above_v = root_v + one;
+    const V roots = root_t * root_v;
+    const V aboves = above_t * above_v;
+    const V inverse = one / (shifted * roots * aboves);
+    const V inverse_aboves = inverse * (shifted * roots);
+    const V cost = inverse_aboves * (width_squared * t * above_v + share * (clipped_squared * v * above_t));
+    const V rest = inverse * aboves;  // 1 / (shifted roots)
+    const V slope = rest * roots;
+    const V weighted = slope * (rest * shifted * root_v);
+    const V clipped_factor = share * clipped_slope * (rest * shifted * root_t);
+    return {weighted * slope + clipped_factor * clipped_slope, weighted * r + clipped_factor * u, cost};
+  }
+};
+
 // kMean: f is the mean of f(wi, wo) and f(wo, wi), which is what a cell holds; for materials that are
 // reciprocal the second is the first.
-template <class ModelRows, bool kMean>
-HWY_FLATTEN void gram_of(const GramJob& job, Gram& gram) {
-  constexpr int n = ModelRows::coefficients;
-  ModelRows model(job.coefficients);
-  ModelRows other(job.coefficients);
-  alignas(64) BlockRows<n + 1> blocks[3];
-  Products<n + 1> products[3];
-  for (auto& channel : products) channel.clear();
-  V total(0.0);
-  for (std::size_t first = 0; first < job.count; first += kRowLength) {
-    const std::size_t length = job.count - first < kRowLength ? job.count - first : kRowLength;
+template <class S, template <class> class ModelRows, template <class> class LossOf, bool kMean>
+struct GramOf {
+  using V = Lanes<S>;
+  using Model = ModelRows<S>;
+  using Terms = typename Model::Terms;
+  static constexpr int n = Model::coefficients;
+  static constexpr std::size_t kVectors = kRowLength<S> / V::size;
+
+  struct Nothing {};
+  // What the channels of a sample share.
+  struct Shared {
+    Terms terms;
+    std::conditional_t<kMean, Terms, Nothing> other;
+    V inverse_cos_i;
+    V to_cos_i;  // turns f(wo, wi) cos_o into f(wo, wi) cos_i
+  };
+
+  // Sums over all blocks.
+  Products<S, n + 1> products[3];
+  V total;
+  // Of the block at hand.
+  alignas(64) BlockRows<S, n + 1> rows;
+  Shared shared[kVectors];
+  V y[kVectors];
+  Counted<S> counted[kVectors];
+
+  static HWY_FLATTEN void run(const GramJob& job, Gram& gram) {
+    const Model model(job.coefficients);
+    const LossOf<S> loss(job);
+    GramOf of;
+    for (auto& channel : of.products) channel.clear();
+    of.total = V(0.0);
+    for (std::size_t first = 0; first < job.count; first += kRowLength<S>) {
+      const std::size_t length = job.count - first < kRowLength<S> ? job.count - first : kRowLength<S>;
+      of.share(model, job, first, length);
+      for (int c = 0; c < 3; ++c) {
+        of.count(model, loss, job, c, first, length);
+        of.fill(model, job, c, first, length);
+        add_products<S, n + 1>(of.rows, length, of.products[c]);
+      }
+    }
+    for (int c = 0; c < 3; ++c) {
+      for (int i = 0; i <= n; ++i) {
+        for (int j = i; j <= n; ++j) {
+          gram.channel[c][i * kGramSide + j] = static_cast<double>(sum(of.products[c].sums[i][j]));
+        }
+      }
+    }
+    gram.cost = static_cast<double>(sum(of.total));
+  }
+
+  HWY_INLINE void share(const Model& model, const GramJob& job, std::size_t first, std::size_t length) {
     for (std::size_t at = 0; at < length; at += V::size) {
       const kernel::Geometry<V> g = load_geometry(job.geometry, first + at);
       const kernel::GeometryLogs<V> logs = load_logs(job.geometry, first + at);
-      model.prepare(g, logs);
-      if constexpr (kMean) other.prepare(swapped(g), logs);
+      Shared& to = shared[at / V::size];
+      to.terms = model.terms(g, logs);
+      to.inverse_cos_i = V(1.0) / g.cos_i;
+      if constexpr (kMean) {
+        to.other = model.terms(swapped(g), logs);
+        to.to_cos_i = g.cos_i / g.cos_o;
+      }
+    }
+  }
+
+  // Roots and quotients of a sample wait for each other: in short loops those of neighbours overlap.
+  HWY_INLINE void count(const Model& model, const LossOf<S>& loss, const GramJob& job, int c,
+                        std::size_t first, std::size_t length) {
+    for (std::size_t k = 0; k < length / V::size; ++k) {
+      y[k] = model.y(c, shared[k].terms);
+      if constexpr (kMean) y[k] = V(0.5) * (y[k] + model.y(c, shared[k].other) * shared[k].to_cos_i);
+    }
+    for (std::size_t at = 0; at < length; at += V::size) {
+      const std::size_t k = at / V::size;
+      counted[k] =
+          loss.count(y[k], V::load(job.geometry.cos_i + first + at), shared[k].inverse_cos_i,
+                     V::load(job.target[c] + first + at), V::load(job.clipped_target[c] + first + at),
+                     V::load(job.clipped_share + first + at));
+    }
+    for (std::size_t k = 0; k < length / V::size; ++k) {
+      const V slope = sqrt(counted[k].slope);
+      counted[k] = {slope, counted[k].residual / slope, counted[k].cost};
+    }
+  }
+
+  HWY_INLINE void fill(const Model& model, const GramJob& job, int c, std::size_t first, std::size_t length) {
+    for (std::size_t at = 0; at < length; at += V::size) {
+      const Shared& s = shared[at / V::size];
+      const Counted<S>& value = counted[at / V::size];
       const V weight = V::load(job.sqrt_weight + first + at);
-      const V inverse_cos_i = V(1.0) / g.cos_i;
-      // Turns f(wo, wi) cos_o into f(wo, wi) cos_i.
-      const V to_cos_i = kMean ? g.cos_i / g.cos_o : V(1.0);
-      // All channels first: what one waits for, roots and quotients, overlaps with the others.
-      Counted counted[3];
-      for (int c = 0; c < 3; ++c) {
-        V y = model.y(c);
-        if constexpr (kMean) y = V(0.5) * (y + other.y(c) * to_cos_i);
-        counted[c] = count(job, c, first + at, y, g.cos_i, inverse_cos_i);
+      const V slope = weight * value.slope;
+      V dy[n];
+      if constexpr (kMean) {
+        V other[n];
+        model.derivatives(c, s.terms, V(0.5) * slope, dy);
+        model.derivatives(c, s.other, V(0.5) * slope * s.to_cos_i, other);
+        for (int k = 0; k < n; ++k) dy[k] = dy[k] + other[k];
+      } else {
+        model.derivatives(c, s.terms, slope, dy);
       }
-      for (int c = 0; c < 3; ++c) {
-        V dy[n];
-        const V slope = weight * counted[c].slope;
-        if constexpr (kMean) {
-          V dy_other[n];
-          model.derivatives(c, V(0.5) * slope, dy);
-          other.derivatives(c, V(0.5) * slope * to_cos_i, dy_other);
-          for (int k = 0; k < n; ++k) dy[k] = dy[k] + dy_other[k];
-        } else {
-          model.derivatives(c, slope, dy);
-        }
-        for (int k = 0; k < n; ++k) dy[k].store(blocks[c][k] + at);
-        (weight * counted[c].residual).store(blocks[c][n] + at);
-        total = multiply_add(weight * weight, counted[c].cost, total);
-      }
-    }
-    for (int c = 0; c < 3; ++c) add_products(blocks[c], length, products[c]);
-  }
-  for (int c = 0; c < 3; ++c) {
-    for (int i = 0; i <= n; ++i) {
-      for (int j = i; j <= n; ++j) gram.channel[c][i * kGramSide + j] = sum(products[c].sums[i][j]);
+      for (int k = 0; k < n; ++k) dy[k].store(rows[k] + at);
+      (weight * value.residual).store(rows[n] + at);
+      total = multiply_add(weight * weight, value.cost, total);
     }
   }
-  gram.cost = sum(total);
+};
+
+template <template <class> class ModelRows, bool kMean>
+void gram_of(const GramJob& job, Gram& gram) {
+  if (job.loss == BRDFIT_LOSS_LOG_RATIO && job.robust_width > 0.0 && job.clipped_width > 0.0) {
+    return GramOf<double, ModelRows, RobustLogRatio, kMean>::run(job, gram);
+  }
+  GramOf<double, ModelRows, AnyLoss, kMean>::run(job, gram);
 }
 
 template <class ModelLanes, bool kMean>
 HWY_FLATTEN double cost_of(const GramJob& job) {
   const ModelLanes model(job.coefficients);
+  const AnyLoss<double> loss(job);
   V total(0.0);
   for (std::size_t at = 0; at < job.count; at += V::size) {
     const kernel::Geometry<V> g = load_geometry(job.geometry, at);
@@ -340,7 +269,9 @@ HWY_FLATTEN double cost_of(const GramJob& job) {
     for (int c = 0; c < 3; ++c) {
       V y = model.combine(c, terms);
       if constexpr (kMean) y = V(0.5) * (y + model.combine(c, other_terms) * to_cos_i);
-      const Counted counted = count(job, c, at, y, g.cos_i, inverse_cos_i);
+      const Counted<double> counted =
+          loss.count(y, g.cos_i, inverse_cos_i, V::load(job.target[c] + at),
+                     V::load(job.clipped_target[c] + at), V::load(job.clipped_share + at));
       total = multiply_add(weight * weight, counted.cost, total);
     }
   }

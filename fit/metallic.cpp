@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "brdf/kernel/fresnel.h"
+#include "fit/descend.h"
 
 namespace brdfit::fit {
 namespace {
@@ -18,7 +19,7 @@ constexpr double kSameLoss = 0.01;
 constexpr double kMetalF0 = 0.45;
 // A metal whose loss is less than a third of the dielectric's has been told apart by the measurement.
 constexpr double kDecidedExcess = 2.0;
-constexpr int kDielectricIterations = 30;
+constexpr DescentOptions kDielectric = {30, 1e-6, 1e-4};
 
 double f0_of(const Material& material, double base_color) {
   return kernel::metallic_f0(base_color, material.number("metallic"), material.number("specular"));
@@ -59,10 +60,8 @@ Decided decide_metallic(const Problem& problem, const Candidate& candidate) {
   const Material metal = parametrisation.to_material(candidate.solution.x);
   Candidate dielectric = candidate;
   dielectric.box.moves[at] = false;
-  SolveOptions options;
-  options.max_iterations = kDielectricIterations;
   const std::vector<double> start = parametrisation.from_material(as_dielectric(metal));
-  dielectric.solution = solve_pinning(problem, start, dielectric.box, options);
+  dielectric.solution = descend(problem, start, dielectric.box, kDielectric);
   decided.evaluations = dielectric.solution.evaluations;
   const double excess = dielectric.solution.cost / std::max(candidate.solution.cost, 1e-300) - 1.0;
   const double f0 = largest_f0(metal);

@@ -143,6 +143,28 @@ void add(Gram& to, const Gram& from) {
   to.cost += from.cost;
 }
 
+// How one coefficient of a channel depends on one free number. A coefficient depends on few.
+struct Link {
+  Eigen::Index coefficient;
+  Eigen::Index number;
+  double slope;
+};
+
+// Coefficients by product form, product form by free numbers; the residual, last of both, stays itself.
+std::vector<Link> links(const Parametrisation& parametrisation, const Eigen::MatrixXd& by_product) {
+  std::vector<Link> result;
+  result.reserve(static_cast<std::size_t>(by_product.size()) + 1);
+  for (std::size_t entry = 0; entry < parametrisation.source.size(); ++entry) {
+    if (parametrisation.source[entry] < 0) continue;
+    for (Eigen::Index k = 0; k < by_product.rows(); ++k) {
+      const double slope = parametrisation.factor[entry] * by_product(k, static_cast<Eigen::Index>(entry));
+      if (slope != 0.0) result.push_back({k, parametrisation.source[entry], slope});
+    }
+  }
+  result.push_back({by_product.rows(), static_cast<Eigen::Index>(parametrisation.size()), 1.0});
+  return result;
+}
+
 }  // namespace
 
 Targets make_targets(const SampleSet& samples, Loss loss) {
@@ -188,6 +210,7 @@ Problem::Problem(const Parametrisation& parametrisation, const SampleSet& sample
       samples_(samples),
       targets_(targets),
       loss_(loss),
+      has_two_orders_(samples.has_two_orders()),
       gram_function_(gram_function(simd::best_isa())),
       cost_function_(cost_function(simd::best_isa())) {}
 
@@ -209,7 +232,7 @@ GramJob Problem::job_at(std::span<const double> x) const {
   }
   job.count = samples_.padded_size();
   job.loss = static_cast<int>(loss_);
-  job.mean_of_orders = samples_.has_two_orders() && !is_reciprocal(material);
+  job.mean_of_orders = has_two_orders_ && !is_reciprocal(material);
   job.robust_width = targets_.robust_width;
   job.clipped_width = targets_.clipped_width;
   job.clipped_share = targets_.clipped_share.data();
@@ -238,20 +261,13 @@ Eigen::MatrixXd Problem::gram(std::span<const double> x, double* cost) const {
       differentiate(parametrisation_.start, parametrisation_.product(x));
   Eigen::MatrixXd total = Eigen::MatrixXd::Zero(n + 1, n + 1);
   for (std::size_t c = 0; c < 3; ++c) {
-    const Eigen::MatrixXd& by_product = channels[c].jacobian;
-    const Eigen::Index k = by_product.rows();
-    // Chain: coefficients by product form, product form by free numbers; the residual stays itself.
-    Eigen::MatrixXd chain = Eigen::MatrixXd::Zero(k + 1, n + 1);
-    for (std::size_t entry = 0; entry < parametrisation_.source.size(); ++entry) {
-      if (parametrisation_.source[entry] < 0) continue;
-      chain.col(parametrisation_.source[entry]).head(k) +=
-          parametrisation_.factor[entry] * by_product.col(static_cast<Eigen::Index>(entry));
+    const std::vector<Link> chain = links(parametrisation_, channels[c].jacobian);
+    for (const Link& a : chain) {
+      for (const Link& b : chain) {
+        const auto [row, column] = std::minmax(a.coefficient, b.coefficient);
+        total(a.number, b.number) += a.slope * b.slope * sums.channel[c][row * kGramSide + column];
+      }
     }
-    chain(k, n) = 1.0;
-    const Eigen::Map<const Eigen::Matrix<double, kGramSide, kGramSide, Eigen::RowMajor>> upper(
-        sums.channel[c]);
-    const Eigen::MatrixXd full = upper.topLeftCorner(k + 1, k + 1).selfadjointView<Eigen::Upper>();
-    total.noalias() += chain.transpose() * full * chain;
   }
   return total;
 }

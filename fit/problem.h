@@ -55,6 +55,7 @@ class Problem {
   const SampleSet& samples_;
   const Targets& targets_;
   Loss loss_;
+  bool has_two_orders_;
   GramFunction gram_function_;
   CostFunction cost_function_;
 };

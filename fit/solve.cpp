@@ -123,6 +123,8 @@ Solution solve(const Problem& problem, const std::vector<double>& x, const Box& 
   ceres_options.gradient_tolerance = options.gradient_tolerance;
   ceres_options.parameter_tolerance = options.parameter_tolerance;
   ceres_options.initial_trust_region_radius = options.initial_trust_region_radius;
+  // A line search along steps that bounds cut costs two more evaluations a step and gains nothing here.
+  ceres_options.max_num_line_search_step_size_iterations = 0;
   ceres_options.num_threads = 1;
   ceres_options.logging_type = ceres::SILENT;
   ceres::Solver::Summary summary;
