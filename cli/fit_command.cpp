@@ -33,6 +33,7 @@ io::Json result_json(const Arguments& a, const fit::FitResult& result, double lo
   json["material"] = material_path(a, result.options).string();
   json.update(evaluation_to_json(result.evaluation));
   json["free_parameters"] = result.free_parameters;
+  add_selection(result, json);
   json["converged"] = result.converged;
   json["notes"] = result.notes;
   io::Json timings = {{"load", load_seconds}};
@@ -56,7 +57,10 @@ void print_result(const Arguments& a, const std::vector<fit::FitResult>& results
     return;
   }
   fmt::print("{}\n", format_errors(results));
-  for (const fit::FitResult& result : results) fmt::print("{}\n", format_parameters(result));
+  for (const fit::FitResult& result : results) {
+    fmt::print("{}\n", format_parameters(result));
+    if (result.selection) fmt::print("{}\n", format_ladder(result));
+  }
   if (a.timings)
     fmt::print("{}\n", format_timings(results, loaded.seconds, floor_seconds, peak_memory_bytes()));
   for (const fit::FitResult& result : results)

@@ -1,6 +1,8 @@
 // Results to JSON.
 #include "cli/result_json.h"
 
+#include "cli/ladder_cost.h"
+
 namespace brdfit::cli {
 namespace {
 
@@ -22,10 +24,35 @@ Json parameter_to_json(const Material& material, const fit::ParameterState& stat
   return json;
 }
 
-Json timings_to_json(const fit::FitTimings& timings) {
-  return {{"sample", timings.sample_seconds},   {"explore", timings.explore_seconds},
-          {"refine", timings.refine_seconds},   {"evidence", timings.evidence_seconds},
-          {"measure", timings.measure_seconds}, {"fit", timings.total_seconds}};
+Json effects_to_json(const fit::FitOptions& options) {
+  if (options.choose_groups) return "auto";
+  if (!options.groups)
+    return options.effects ? Json(fit::names_of_groups(
+                                 options.model, fit::groups_of_effects(options.model, *options.effects)))
+                           : Json("all");
+  return fit::names_of_groups(options.model, *options.groups);
+}
+
+Json held_out_to_json(const fit::Selection& selection) {
+  return {{"log_ratio_pct", selection.held_out.log_ratio_pct},
+          {"folds_pct", selection.held_out.folds_pct},
+          {"without_pct", selection.held_out_without.log_ratio_pct},
+          {"all_pct", selection.held_out_all.log_ratio_pct},
+          {"free_parameters_all", selection.parameters_all},
+          {"sets_compared", selection.sets}};
+}
+
+Json ladder_to_json(const fit::Selection& selection) {
+  Json ladder = Json::array();
+  for (const fit::LadderStep& step : selection.ladder) {
+    ladder.push_back({{"action", step.removed ? "removed" : "added"},
+                      {"groups", step.groups},
+                      {"held_out_before_pct", step.held_out_before_pct},
+                      {"held_out_after_pct", step.held_out_after_pct},
+                      {"standard_error_pct", step.standard_error_pct},
+                      {"parameters", step.parameters}});
+  }
+  return ladder;
 }
 
 Json options_to_json(const fit::FitOptions& options) {
@@ -37,6 +64,8 @@ Json options_to_json(const fit::FitOptions& options) {
     json["samples"] = options.samples == kAllSamples ? Json("all") : Json(options.samples);
   }
   json["max_theta_deg"] = options.max_theta_deg;
+  json["effects"] = effects_to_json(options);
+  if (options.choose_groups) json["group_threshold"] = options.group_threshold;
   json["loss"] = name_of(options.loss);
   json["starts"] = options.starts;
   json["seed"] = options.seed;
@@ -47,7 +76,28 @@ Json options_to_json(const fit::FitOptions& options) {
   return json;
 }
 
+Json timings_to_json(const fit::FitResult& result) {
+  const fit::FitTimings& timings = result.timings;
+  Json json = {{"sample", timings.sample_seconds},     {"select", timings.select_seconds},
+               {"explore", timings.explore_seconds},   {"refine", timings.refine_seconds},
+               {"evidence", timings.evidence_seconds}, {"measure", timings.measure_seconds},
+               {"fit", timings.total_seconds}};
+  if (result.selection) {
+    Json costs = Json::array();
+    for (const double seconds : ladder_costs(result)) costs.push_back(seconds);
+    json["evaluation"] = costs;
+  }
+  return json;
+}
+
 }  // namespace
+
+void add_selection(const fit::FitResult& result, Json& json) {
+  json["groups"] = fit::names_of_groups(result.options.model, result.groups);
+  if (!result.selection) return;
+  json["held_out"] = held_out_to_json(*result.selection);
+  json["ladder"] = ladder_to_json(*result.selection);
+}
 
 Json measures_to_json(const fit::Measures& m) {
   return {{"log_ratio_pct", m.log_ratio_pct},
@@ -87,6 +137,7 @@ Json evidence_to_json(const fit::FitResult& result, const Provenance& provenance
   json["table"] = measures_to_json(result.evaluation.table);
   json["reciprocity_gap_pct"] = result.evaluation.reciprocity_gap_pct;
   json["largest_directional_albedo"] = result.largest_albedo;
+  add_selection(result, json);
   Json parameters = Json::object();
   for (const fit::ParameterState& state : result.parameters) {
     parameters[state.name] = parameter_to_json(result.material, state);
@@ -98,7 +149,7 @@ Json evidence_to_json(const fit::FitResult& result, const Provenance& provenance
   }
   json["correlated"] = correlated;
   json["notes"] = result.notes;
-  json["timings_seconds"] = timings_to_json(result.timings);
+  json["timings_seconds"] = timings_to_json(result);
   return json;
 }
 
