@@ -24,8 +24,12 @@ class Selector {
     while (grow()) {
     }
     compare_with_all();
-    while (prune()) {
-    }
+    // What was not worth its place before may be after others have gone. The bound of pruning only falls and
+    // growing goes below it, so this ends.
+    do {
+      while (prune()) {
+      }
+    } while (grow());
     result_.chosen = set_;
     result_.held_out_without = validation_.held_out(options_.required);
     write_errors();
