@@ -24,12 +24,14 @@ class Selector {
     while (grow()) {
     }
     compare_with_all();
-    // What was not worth its place before may be after others have gone. The bound of pruning only falls and
-    // growing goes below it, so this ends.
     do {
-      while (prune()) {
-      }
-    } while (grow());
+      // What was not worth its place before may be after others have gone. The bound of pruning only falls
+      // and growing goes below it, so this ends.
+      do {
+        while (prune()) {
+        }
+      } while (grow());
+    } while (compare_with_all());
     result_.chosen = set_;
     result_.held_out_without = validation_.held_out(options_.required);
     write_errors();
@@ -90,9 +92,18 @@ class Selector {
     if (moves.empty()) return false;
     std::vector<Request> requests;
     for (const Move& move : moves) {
+      // Fresh values alternate in sign from origin to origin: what has a sign is tried with both.
       Request request = {move.set, {{set_, {}}}, kFewStarts};
-      const Groups earlier = before_ | move.groups;
-      request.origins.push_back({set_, validation_.knows(earlier) ? earlier : Groups()});
+      if (effects_of_groups(model_, move.groups).has(Effect::kSmoothTerminator)) {
+        request.origins.push_back({set_, {}});
+      }
+      for (const Groups donor : {before_ | move.groups, options_.usable}) {
+        if (validation_.knows(donor)) request.origins.push_back({set_, donor});
+      }
+      // From everything, less what is off: where effects are together they may stand elsewhere than one by
+      // one.
+      if (validation_.knows(options_.usable)) request.origins.push_back({options_.usable, {}});
+      if (request.origins.size() == 1) request.origins.push_back({set_, {}});
       requests.push_back(std::move(request));
     }
     validation_.fit(requests);
@@ -111,12 +122,18 @@ class Selector {
     validation_.fit({request});
   }
 
-  void compare_with_all() {
+  // Begins again from everything where that is better by more than the threshold. Everything is fitted from
+  // what was found so far too: its error must not be that of a poor minimum.
+  bool compare_with_all() {
     const Groups all = options_.usable;
-    if (all == set_) return;
-    validation_.fit({{all, {{set_, {}}, {set_, {}}}, kManyStarts}});
-    if (!(validation_.error(set_) > (1.0 + options_.threshold) * validation_.error(all))) return;
+    if (all == set_) return false;
+    Request request = {all, {{set_, {}}, {set_, {}}}, compared_with_all_ ? 0 : kManyStarts};
+    if (validation_.knows(all)) request.origins.push_back({set_, all});
+    compared_with_all_ = true;
+    validation_.fit({request});
+    if (!(validation_.error(set_) > (1.0 + options_.threshold) * validation_.error(all))) return false;
     step_to({all.without(set_), all}, false);
+    return true;
   }
 
   std::vector<Move> removals(Groups from) const {
@@ -156,6 +173,7 @@ class Selector {
   const SelectionOptions& options_;
   Groups set_;
   Groups before_;
+  bool compared_with_all_ = false;
   double least_ = std::numeric_limits<double>::infinity();
   Selection result_;
 };
