@@ -26,6 +26,8 @@ constexpr DescentOptions kPolish = {30, 1e-5};
 // A search whose cost is higher than the best one's by more than this share is not polished.
 constexpr double kWorthPolishing = 0.5;
 constexpr std::size_t kPolished = 2;
+// Searches whose costs differ by less than this share are taken for the same minimum.
+constexpr double kSameMinimum = 2e-3;
 
 // Products of one sign stay on the side where they begin.
 Box box_at(const Parametrisation& parametrisation, const std::vector<double>& x) {
@@ -107,6 +109,18 @@ Search continued(const Problem& problem, const std::vector<double>& x,
   }
   advance_all(problem, search);
   return search;
+}
+
+// The best few that are worth polishing and not the same minimum found twice.
+std::vector<Search> distinct(std::vector<Search> searches) {
+  std::ranges::stable_sort(searches, {}, [](const Search& s) { return s.solution.cost; });
+  std::vector<Search> result;
+  for (const Search& search : searches) {
+    const double cost = search.solution.cost;
+    if (result.size() == kPolished || cost > (1.0 + kWorthPolishing) * searches.front().solution.cost) break;
+    if (result.empty() || cost > (1.0 + kSameMinimum) * result.back().solution.cost) result.push_back(search);
+  }
+  return result;
 }
 
 }  // namespace
@@ -210,12 +224,10 @@ CrossValidation::FoldFit CrossValidation::fit_fold(const Request& request, std::
     }
     searches.push_back(continued(wide, x, added));
   }
-  std::ranges::stable_sort(searches, {}, [](const Search& s) { return s.solution.cost; });
   FoldFit best = {options_.start};
   for (const Search& search : searches) best.evaluations += search.solution.evaluations;
-  for (std::size_t k = 0; k < searches.size() && k < kPolished; ++k) {
-    if (searches[k].solution.cost > (1.0 + kWorthPolishing) * searches[0].solution.cost) break;
-    const Solution polished = descend(narrow, searches[k].solution.x, searches[k].box, kPolish);
+  for (const Search& search : distinct(searches)) {
+    const Solution polished = descend(narrow, search.solution.x, search.box, kPolish);
     best.evaluations += polished.evaluations;
     if (!(polished.cost < best.cost)) continue;
     best.cost = polished.cost;

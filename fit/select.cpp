@@ -12,6 +12,10 @@ using Request = CrossValidation::Request;
 constexpr int kFewStarts = 1;
 constexpr int kManyStarts = 3;
 
+// A group without which the error is beyond the bound by more than this share is not tried again when others
+// have gone: it will hardly be missed less.
+constexpr double kNeeded = 0.05;
+
 class Selector {
  public:
   Selector(CrossValidation& validation, Model model, const SelectionOptions& options)
@@ -48,7 +52,8 @@ class Selector {
  private:
   struct Move {
     Groups groups;
-    Groups set;  // after it
+    Groups set;            // after it
+    std::size_t head = 0;  // the group that it is about; the others refine it
   };
 
   void step_to(const Move& move, bool removed) {
@@ -58,6 +63,7 @@ class Selector {
     step.parameters = validation_.free_numbers(move.set) - validation_.free_numbers(set_);
     step.set = move.set;
     result_.ladder.push_back(std::move(step));
+    if (!removed) needed_ = Groups();
     before_ = set_;
     set_ = move.set;
   }
@@ -82,7 +88,7 @@ class Selector {
     for (std::size_t k = 0; k < groups_of(model_).size(); ++k) {
       if (groups_of(model_)[k].refines || !options_.usable.has(k) || set_.has(k)) continue;
       const Groups family = family_of(model_, k) & options_.usable;
-      moves.push_back({family, set_ | family});
+      moves.push_back({family, set_ | family, k});
     }
     return moves;
   }
@@ -132,7 +138,7 @@ class Selector {
     compared_with_all_ = true;
     validation_.fit({request});
     if (!(validation_.error(set_) > (1.0 + options_.threshold) * validation_.error(all))) return false;
-    step_to({all.without(set_), all}, false);
+    step_to({all.without(set_), all, 0}, false);
     return true;
   }
 
@@ -142,7 +148,7 @@ class Selector {
       if (!from.has(k)) continue;
       const Groups family = family_of(model_, k) & from;
       if (!(family & options_.required).empty()) continue;
-      moves.push_back({family, from.without(family)});
+      moves.push_back({family, from.without(family), k});
     }
     return moves;
   }
@@ -155,13 +161,17 @@ class Selector {
 
   bool prune() {
     least_ = std::min(least_, validation_.error(set_));
-    const std::vector<Move> moves = removals(set_);
+    std::vector<Move> moves = removals(set_);
+    std::erase_if(moves, [&](const Move& move) { return needed_.has(move.head); });
     if (moves.empty()) return false;
     std::vector<Request> requests;
     for (const Move& move : moves) {
       requests.push_back({move.set, {{set_, {}}}, move.groups.size() > 1 ? kFewStarts : 0});
     }
     validation_.fit(requests);
+    for (const Move& move : moves) {
+      if (validation_.error(move.set) > (1.0 + kNeeded) * bound()) needed_ = needed_.with(move.head);
+    }
     const Move& best = best_of(moves);
     if (!(validation_.error(best.set) <= bound())) return false;
     step_to(best, true);
@@ -173,6 +183,7 @@ class Selector {
   const SelectionOptions& options_;
   Groups set_;
   Groups before_;
+  Groups needed_;  // that pruning need not try again
   bool compared_with_all_ = false;
   double least_ = std::numeric_limits<double>::infinity();
   Selection result_;
