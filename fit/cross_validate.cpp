@@ -56,6 +56,12 @@ bool leave_plateau(const Parametrisation& parametrisation, std::vector<double>& 
   return true;
 }
 
+// A fresh value for a number that has one, with the other sign where it has a sign.
+double turned(const Parametrisation& parametrisation, std::size_t at, double fresh, double now) {
+  const bool is_signed = parametrisation.free[at].lower < 0.0;
+  return is_signed && now != 0.0 ? std::copysign(fresh, -now) : fresh;
+}
+
 struct Search {
   Solution solution;
   Box box;
@@ -218,8 +224,11 @@ CrossValidation::FoldFit CrossValidation::fit_fold(const Request& request, std::
     std::vector<std::size_t> added;
     for (std::size_t at = 0; at < x.size(); ++at) {
       const auto group = group_of_parameter(model, parameters.free[at].parameter);
-      if (!group || origin.base.has(*group)) continue;
-      if (!origin.donor.has(*group)) x[at] = fresh[k][at];
+      if (!group) continue;
+      const bool anew = origin.anew.has(*group);
+      if (origin.base.has(*group) && !anew) continue;
+      if (anew || !origin.donor.has(*group))
+        x[at] = anew ? turned(parameters, at, fresh[k][at], x[at]) : fresh[k][at];
       added.push_back(at);
     }
     searches.push_back(continued(wide, x, added));

@@ -48,10 +48,12 @@ class CrossValidation {
   CrossValidation(std::vector<Fold> folds, CrossValidationOptions options);
 
   // Where a fit begins in each fold: at what the fold found for the set `base`. Groups that base lacks begin
-  // as the fold found them for the set `donor`, those that donor lacks too at fresh values.
+  // as the fold found them for the set `donor`, those that donor lacks too at fresh values, as do those in
+  // `anew`; there, what has a sign gets the other one.
   struct Origin {
     Groups base;
     Groups donor = {};
+    Groups anew = {};
   };
   // A set, and where its fits begin: at origins whose sets have been fitted, and at so many fresh starts.
   struct Request {

@@ -128,6 +128,23 @@ class Selector {
     validation_.fit({request});
   }
 
+  // From a set's own fits with one effect anew, or the three that shape the diffuse side: a descent does not
+  // take a term out of a wrong role, or across to the other sign.
+  std::vector<CrossValidation::Origin> kicks_of(Groups set) const {
+    const Groups shape = groups_of_effects(model_, Effects()
+                                                       .with(Effect::kDiffuseFresnel)
+                                                       .with(Effect::kRetroreflection)
+                                                       .with(Effect::kSmoothTerminator)) &
+                         set;
+    std::vector<CrossValidation::Origin> origins;
+    if (!shape.empty()) origins.push_back({set, {}, shape});
+    for (std::size_t k = 0; k < groups_of(model_).size(); ++k) {
+      if (set.has(k) && !groups_of(model_)[k].refines)
+        origins.push_back({set, {}, family_of(model_, k) & set});
+    }
+    return origins;
+  }
+
   // Begins again from everything where that is better by more than the threshold. Everything is fitted from
   // what was found so far too: its error must not be that of a poor minimum.
   bool compare_with_all() {
@@ -137,6 +154,10 @@ class Selector {
     if (validation_.knows(all)) request.origins.push_back({set_, all});
     compared_with_all_ = true;
     validation_.fit({request});
+    validation_.fit({{all, kicks_of(all), 0}});
+    std::vector<CrossValidation::Origin> origins = kicks_of(set_);
+    origins.push_back({all, {}});
+    validation_.fit({{set_, origins, 0}});
     if (!(validation_.error(set_) > (1.0 + options_.threshold) * validation_.error(all))) return false;
     step_to({all.without(set_), all, 0}, false);
     return true;
