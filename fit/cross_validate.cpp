@@ -212,7 +212,7 @@ CrossValidation::FoldFit CrossValidation::fit_fold(const Request& request, std::
   const Problem narrow(parameters, samples, targets_[fold].narrow, options_.loss);
   const std::size_t count = static_cast<std::size_t>(request.fresh_starts) + request.origins.size();
   const std::vector<std::vector<double>> fresh =
-      make_starts(parameters, samples, static_cast<int>(count), options_.seed);
+      make_starts(parameters, samples, static_cast<int>(count), options_.seed + request.variant);
   std::vector<Search> searches;
   for (std::size_t k = 0; k < count; ++k) {
     if (k >= request.origins.size()) {

@@ -60,6 +60,7 @@ class CrossValidation {
     Groups groups;
     std::vector<Origin> origins;
     int fresh_starts = 1;
+    std::uint64_t variant = 0;  // of the fresh values, for a set that is fitted again and again
   };
 
   // Fits sets, in parallel over sets and folds. For a set that was fitted before, the better fit of each fold

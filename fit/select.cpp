@@ -11,6 +11,8 @@ using Request = CrossValidation::Request;
 // Fresh starts of a fit that has others to begin from too, and of one that has little or nothing.
 constexpr int kFewStarts = 1;
 constexpr int kManyStarts = 3;
+constexpr int kStartsOfAll = 8;
+constexpr std::uint64_t kKicksOfAll = 3;  // rounds
 
 // A group without which the error is beyond the bound by more than this share is not tried again when others
 // have gone: it will hardly be missed less.
@@ -150,11 +152,12 @@ class Selector {
   bool compare_with_all() {
     const Groups all = options_.usable;
     if (all == set_) return false;
-    Request request = {all, {{set_, {}}, {set_, {}}}, compared_with_all_ ? 0 : kManyStarts};
+    Request request = {all, {{set_, {}}, {set_, {}}}, compared_with_all_ ? 0 : kStartsOfAll};
     if (validation_.knows(all)) request.origins.push_back({set_, all});
+    const std::uint64_t rounds = compared_with_all_ ? 1 : kKicksOfAll;
     compared_with_all_ = true;
     validation_.fit({request});
-    validation_.fit({{all, kicks_of(all), 0}});
+    for (std::uint64_t round = 0; round < rounds; ++round) validation_.fit({{all, kicks_of(all), 0, round}});
     std::vector<CrossValidation::Origin> origins = kicks_of(set_);
     origins.push_back({all, {}});
     validation_.fit({{set_, origins, 0}});
