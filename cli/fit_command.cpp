@@ -35,6 +35,7 @@ io::Json result_json(const Arguments& a, const JudgedFit& judged, double load_se
   json["material"] = material_path(a, result.options).string();
   json.update(evaluation_to_json(result.evaluation, judged.sphere.delta_e));
   json["free_parameters"] = result.free_parameters;
+  add_selection(result, json);
   json["converged"] = result.converged;
   json["notes"] = result.notes;
   io::Json timings = {{"load", load_seconds}};
@@ -58,7 +59,10 @@ void print_result(const Arguments& a, const std::vector<JudgedFit>& results, con
     return;
   }
   fmt::print("{}\n", format_errors(results));
-  for (const JudgedFit& judged : results) fmt::print("{}\n", format_parameters(judged.fit));
+  for (const JudgedFit& judged : results) {
+    fmt::print("{}\n", format_parameters(judged.fit));
+    if (judged.fit.selection) fmt::print("{}\n", format_ladder(judged.fit));
+  }
   if (a.timings)
     fmt::print("{}\n", format_timings(results, loaded.seconds, floor_seconds, peak_memory_bytes()));
   for (const JudgedFit& judged : results)

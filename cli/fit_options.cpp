@@ -25,12 +25,17 @@ std::vector<std::string> with(std::vector<std::string> names, std::initializer_l
   return names;
 }
 
-std::vector<std::string> effect_names() {
+// Of every model's groups.
+std::vector<std::string> group_names() {
   std::vector<std::string> names;
-  for (const Effect effect : all_effects()) {
-    if (effect != Effect::kAnisotropic) names.emplace_back(effect_name(effect));
+  for (const Model model : all_models()) {
+    for (const fit::Group& group : fit::groups_of(model)) names.emplace_back(group.name);
   }
   return names;
+}
+
+bool is_keyword(std::string_view name) {
+  return name == "auto" || name == "all" || name == "none";
 }
 
 std::size_t parse_samples(const std::string& text) {
@@ -63,18 +68,15 @@ std::pair<std::string, std::vector<double>> parse_fix(const std::string& text) {
   return {text.substr(0, equals), values};
 }
 
-// The effects of a model among those named; nothing where all are asked for.
-std::optional<Effects> parse_effects(const std::vector<std::string>& names, Model model) {
-  if (names == std::vector<std::string>{"all"}) return std::nullopt;
-  Effects effects;
-  for (const std::string& name : names) {
-    if (name == "none" || name == "all") {
-      if (names.size() > 1) throw UsageError("--effects takes all, none, or names of effects");
-      continue;
-    }
-    effects = effects.with(*effect_by_name(name));
+// What a list of effects and groups, or one word for them, means for a model.
+void apply_effects(const std::vector<std::string>& names, fit::FitOptions& options) {
+  if (names.size() > 1 && std::ranges::any_of(names, is_keyword)) {
+    throw UsageError("--effects takes auto, all, none, or names of effects and refinements");
   }
-  return Effects(effects.bits() & effects_of(model).bits());
+  options.choose_groups = names.front() == "auto";
+  if (names.front() == "auto" || names.front() == "all") return;
+  options.groups = fit::groups_by_names(options.model, names);
+  options.effects = fit::effects_of_groups(options.model, *options.groups);
 }
 
 std::vector<Model> parse_models(const std::vector<std::string>& names) {
@@ -116,9 +118,9 @@ void apply_init(const std::vector<std::string>& files, std::vector<fit::FitOptio
 // Effects that only some of the models have are given to those.
 void check_effects(const std::vector<std::string>& names, const std::vector<Model>& models) {
   for (const std::string& name : names) {
-    if (name == "all" || name == "none") continue;
-    const Effect effect = *effect_by_name(name);
-    if (std::ranges::none_of(models, [&](Model model) { return effects_of(model).has(effect); })) {
+    const bool known =
+        std::ranges::any_of(models, [&](Model model) { return fit::group_by_name(model, name).has_value(); });
+    if (!known && !is_keyword(name)) {
       throw UsageError("--effects names \"" + name + "\", which no model that is fitted has");
     }
   }
@@ -149,10 +151,14 @@ void add_fit_arguments(CLI::App& app, FitArguments& a) {
   app.add_option("--tier", a.tier, "parameters that may move: those of a tier and the tiers before it")
       ->check(CLI::IsMember({"base", "advanced", "full"}))
       ->capture_default_str();
-  app.add_option("--effects", a.effects, "effects that may be used")
+  app.add_option(
+         "--effects", a.effects,
+         "effects to use: auto for those that lower the held-out error, all, none, or a list of effects "
+         "and of refinements (a tint, a tangent falloff, a length); an effect brings its refinements, "
+         "unless some of them are named")
       ->allow_extra_args(false)
       ->delimiter(',')
-      ->check(CLI::IsMember(with(effect_names(), {"all", "none"})))
+      ->check(CLI::IsMember(with(group_names(), {"auto", "all", "none"})))
       ->capture_default_str();
   app.add_option("--on", a.on, "what is fitted: a stratified sample of the table, or slices")
       ->check(CLI::IsMember({"table", "slices"}))
@@ -203,7 +209,7 @@ std::vector<fit::FitOptions> make_fit_options(const FitArguments& a) {
     options.material_options.burley_g = *burley_g_by_name(a.burley_g);
     options.material_options.diffuse = *diffuse_by_name(a.diffuse);
     options.tier = *tier_by_name(a.tier);
-    options.effects = parse_effects(a.effects, model);
+    apply_effects(a.effects, options);
     options.on = *fit::fit_on_by_name(a.on);
     options.phi_d_deg = a.phi_d_deg;
     options.max_theta_deg = a.max_theta_deg;

@@ -18,7 +18,7 @@ struct FitArguments {
 
   std::vector<std::string> models = {"all"};
   std::string tier;
-  std::vector<std::string> effects = {"all"};
+  std::vector<std::string> effects = {"auto"};
   std::string on;
   std::vector<double> phi_d_deg;
   double max_theta_deg;

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include "cli/ladder_cost.h"
+
 namespace brdfit::cli {
 namespace {
 
@@ -24,20 +26,43 @@ Json parameter_to_json(const Material& material, const fit::ParameterState& stat
   return json;
 }
 
-Json timings_to_json(const JudgedFit& judged) {
-  const fit::FitTimings& timings = judged.fit.timings;
-  return {{"sample", timings.sample_seconds},   {"explore", timings.explore_seconds},
-          {"refine", timings.refine_seconds},   {"evidence", timings.evidence_seconds},
-          {"measure", timings.measure_seconds}, {"sphere", judged.sphere.seconds},
-          {"fit", judged.total_seconds()}};
-}
-
 Json by_light_to_json(const render::SphereDeltaE& sphere) {
   Json json;
   for (std::size_t k = 0; k < render::kLightAnglesDeg.size(); ++k) {
     json[fmt::format("{:g}", render::kLightAnglesDeg[k])] = sphere.by_light[k];
   }
   return json;
+}
+
+Json effects_to_json(const fit::FitOptions& options) {
+  if (options.choose_groups) return "auto";
+  if (!options.groups)
+    return options.effects ? Json(fit::names_of_groups(
+                                 options.model, fit::groups_of_effects(options.model, *options.effects)))
+                           : Json("all");
+  return fit::names_of_groups(options.model, *options.groups);
+}
+
+Json held_out_to_json(const fit::Selection& selection) {
+  return {{"log_ratio_pct", selection.held_out.log_ratio_pct},
+          {"folds_pct", selection.held_out.folds_pct},
+          {"without_pct", selection.held_out_without.log_ratio_pct},
+          {"all_pct", selection.held_out_all.log_ratio_pct},
+          {"free_parameters_all", selection.parameters_all},
+          {"sets_compared", selection.sets}};
+}
+
+Json ladder_to_json(const fit::Selection& selection) {
+  Json ladder = Json::array();
+  for (const fit::LadderStep& step : selection.ladder) {
+    ladder.push_back({{"action", step.removed ? "removed" : "added"},
+                      {"groups", step.groups},
+                      {"held_out_before_pct", step.held_out_before_pct},
+                      {"held_out_after_pct", step.held_out_after_pct},
+                      {"standard_error_pct", step.standard_error_pct},
+                      {"parameters", step.parameters}});
+  }
+  return ladder;
 }
 
 Json options_to_json(const fit::FitOptions& options) {
@@ -49,6 +74,8 @@ Json options_to_json(const fit::FitOptions& options) {
     json["samples"] = options.samples == kAllSamples ? Json("all") : Json(options.samples);
   }
   json["max_theta_deg"] = options.max_theta_deg;
+  json["effects"] = effects_to_json(options);
+  if (options.choose_groups) json["group_threshold"] = options.group_threshold;
   json["loss"] = name_of(options.loss);
   json["starts"] = options.starts;
   json["seed"] = options.seed;
@@ -59,12 +86,33 @@ Json options_to_json(const fit::FitOptions& options) {
   return json;
 }
 
+Json timings_to_json(const JudgedFit& judged) {
+  const fit::FitTimings& timings = judged.fit.timings;
+  Json json = {{"sample", timings.sample_seconds},     {"select", timings.select_seconds},
+               {"explore", timings.explore_seconds},   {"refine", timings.refine_seconds},
+               {"evidence", timings.evidence_seconds}, {"measure", timings.measure_seconds},
+               {"sphere", judged.sphere.seconds},      {"fit", judged.total_seconds()}};
+  if (judged.fit.selection) {
+    Json costs = Json::array();
+    for (const double seconds : ladder_costs(judged.fit)) costs.push_back(seconds);
+    json["evaluation"] = costs;
+  }
+  return json;
+}
+
 }  // namespace
 
 std::string path_from(const std::filesystem::path& folder, const std::filesystem::path& file) {
   std::error_code error;
   const std::filesystem::path path = std::filesystem::proximate(file, folder, error);
   return error || path.is_absolute() ? "" : path.generic_string();
+}
+
+void add_selection(const fit::FitResult& result, Json& json) {
+  json["groups"] = fit::names_of_groups(result.options.model, result.groups);
+  if (!result.selection) return;
+  json["held_out"] = held_out_to_json(*result.selection);
+  json["ladder"] = ladder_to_json(*result.selection);
 }
 
 Json measures_to_json(const fit::Measures& m) {
@@ -109,6 +157,7 @@ Json evidence_to_json(const JudgedFit& judged, const Provenance& provenance) {
   json["free_parameters"] = result.free_parameters;
   json.update(evaluation_to_json(result.evaluation, judged.sphere.delta_e));
   json["largest_directional_albedo"] = result.largest_albedo;
+  add_selection(result, json);
   Json parameters = Json::object();
   for (const fit::ParameterState& state : result.parameters) {
     parameters[state.name] = parameter_to_json(result.material, state);

@@ -2,9 +2,11 @@
 #include "cli/result_text.h"
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <algorithm>
 
+#include "cli/ladder_cost.h"
 #include "io/material_json.h"
 
 namespace brdfit::cli {
@@ -107,23 +109,50 @@ std::string format_parameters(const fit::FitResult& result) {
   return text;
 }
 
+std::string format_ladder(const fit::FitResult& result) {
+  const fit::Selection& selection = *result.selection;
+  const std::vector<double> costs = ladder_costs(result);
+  int parameters = selection.parameters_without;
+  std::vector<std::vector<std::string>> rows = {
+      {selection.required.empty() ? "Lambert + GGX" : "what is held on",
+       fmt::format("{:.2f}", selection.held_out_without.log_ratio_pct), "", std::to_string(parameters),
+       fmt::format("{:.1f}", 1e9 * costs[0])}};
+  for (std::size_t k = 0; k < selection.ladder.size(); ++k) {
+    const fit::LadderStep& step = selection.ladder[k];
+    parameters += step.parameters;
+    rows.push_back({fmt::format("{}{}", step.removed ? "- " : "+ ", fmt::join(step.groups, ", ")),
+                    fmt::format("{:.2f}", step.held_out_after_pct),
+                    fmt::format("{:+.2f} +- {:.2f}", step.held_out_after_pct - step.held_out_before_pct,
+                                step.standard_error_pct),
+                    std::to_string(parameters), fmt::format("{:.1f}", 1e9 * costs[k + 1])});
+  }
+  rows.push_back({"all", fmt::format("{:.2f}", selection.held_out_all.log_ratio_pct), "",
+                  std::to_string(selection.parameters_all), ""});
+  return fmt::format("{}: effects by held-out error (blocks of angles, {} folds, threshold {:g}%)\n",
+                     title_of(result.material.model()), selection.held_out.folds_pct.size(),
+                     100.0 * selection.threshold) +
+         format_table({"step", "log-ratio %", "difference", "free", "ns"}, rows);
+}
+
 std::string format_timings(std::span<const JudgedFit> results, double load_seconds, double floor_seconds,
                            std::size_t peak_bytes) {
   std::vector<std::vector<std::string>> rows;
   for (const JudgedFit& judged : results) {
     const fit::FitTimings& t = judged.fit.timings;
     rows.push_back({std::string(title_of(judged.fit.material.model())),
-                    floors(t.sample_seconds, floor_seconds), floors(t.explore_seconds, floor_seconds),
-                    floors(t.refine_seconds, floor_seconds), floors(t.evidence_seconds, floor_seconds),
-                    floors(t.measure_seconds, floor_seconds), floors(judged.sphere.seconds, floor_seconds),
+                    floors(t.sample_seconds, floor_seconds), floors(t.select_seconds, floor_seconds),
+                    floors(t.explore_seconds, floor_seconds), floors(t.refine_seconds, floor_seconds),
+                    floors(t.evidence_seconds, floor_seconds), floors(t.measure_seconds, floor_seconds),
+                    floors(judged.sphere.seconds, floor_seconds),
                     floors(judged.total_seconds(), floor_seconds)});
   }
   return fmt::format(
              "times in units of the load floor, {:.1f} ms (reading and converting the file's bytes); load "
              "{}\n",
              1e3 * floor_seconds, floors(load_seconds, floor_seconds)) +
-         format_table({"model", "sample", "explore", "refine", "evidence", "measure", "sphere", "all"},
-                      rows) +
+         format_table(
+             {"model", "sample", "select", "explore", "refine", "evidence", "measure", "sphere", "all"},
+             rows) +
          fmt::format("peak memory {:.0f} MB\n", static_cast<double>(peak_bytes) / 1e6);
 }
 

@@ -29,6 +29,10 @@ std::string format_errors(std::span<const JudgedFit> results);
 // Every parameter of a fit with its value, 8-bit sRGB for colours, its range and its status; then the notes.
 std::string format_parameters(const fit::FitResult& result);
 
+// What the choice of effects went through: a row per step, with the held-out error after it, its difference
+// with the standard error over folds, the free parameters and the time per evaluation.
+std::string format_ladder(const fit::FitResult& result);
+
 // The phases of the fits in units of the load floor.
 std::string format_timings(std::span<const JudgedFit> results, double load_seconds, double floor_seconds,
                            std::size_t peak_bytes);

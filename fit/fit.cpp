@@ -52,20 +52,36 @@ Effects effects_to_fit(const FitOptions& options) {
   return options.effects ? Effects(options.effects->bits() & all.bits()) : all;
 }
 
+Groups usable_groups_of(const FitOptions& options) {
+  const Groups usable = usable_groups(options.model, options.tier, effects_to_fit(options));
+  return options.groups ? usable & *options.groups : usable;
+}
+
+FreedomOptions freedom_of(const FitOptions& options) {
+  return {options.tier, effects_to_fit(options), options.fixed, options.groups};
+}
+
 Material start_material(const FitOptions& options) {
   Material material = options.init ? *options.init : Material(options.model);
   material.options() = options.material_options;
   return material;
 }
 
-SampleSet draw_samples(const MeasuredTable& table, const FitOptions& options) {
+// Observations, and the cells that they come from.
+struct Drawn {
+  SampleSet samples;
+  std::vector<std::size_t> cells;
+};
+
+Drawn draw_samples(const MeasuredTable& table, const FitOptions& options) {
   SamplingOptions sampling;
   sampling.max_theta_deg = options.max_theta_deg;
-  SampleSet samples = options.on == FitOn::kTable
-                          ? sample_table(table, options.samples, options.seed, sampling)
-                          : sample_slices(table, options.phi_d_deg, sampling);
-  if (samples.size() == 0) throw std::invalid_argument("no valid cell lies within the given angles");
-  return samples;
+  Drawn drawn;
+  drawn.samples = options.on == FitOn::kTable
+                      ? sample_table(table, options.samples, options.seed, sampling, &drawn.cells)
+                      : sample_slices(table, options.phi_d_deg, sampling, &drawn.cells);
+  if (drawn.samples.size() == 0) throw std::invalid_argument("no valid cell lies within the given angles");
+  return drawn;
 }
 
 // The best candidates that are not the same minimum found twice, at most count of them.
@@ -105,12 +121,14 @@ struct Data {
 
 class Fitter {
  public:
-  Fitter(const MeasuredTable& table, const FitOptions& options)
+  // seeds: materials to start from besides.
+  Fitter(const MeasuredTable& table, const FitOptions& options, SampleSet samples,
+         std::vector<Material> seeds)
       : table_(table),
         options_(options),
-        parametrisation_(make_parametrisation(start_material(options),
-                                              {options.tier, effects_to_fit(options), options.fixed})),
-        data_(draw_samples(table, options), options),
+        seeds_(std::move(seeds)),
+        parametrisation_(make_parametrisation(start_material(options), freedom_of(options))),
+        data_(std::move(samples), options),
         on_part_(parametrisation_, data_.part, data_.part_targets, options.loss),
         on_part_wide_(parametrisation_, data_.part, data_.part_wide_targets, options.loss),
         on_all_(parametrisation_, data_.all, data_.all_targets, options.loss) {}
@@ -119,6 +137,7 @@ class Fitter {
     result_.options = options_;
     result_.observations = data_.all.size();
     result_.free_parameters = static_cast<int>(parametrisation_.size());
+    result_.groups = usable_groups_of(options_);
     result_.timings.sample_seconds = watch_.lap_seconds();
     explore_starts();
     result_.timings.explore_seconds = watch_.lap_seconds();
@@ -144,6 +163,7 @@ class Fitter {
   void explore_starts() {
     std::vector<std::vector<double>> seeds;
     if (options_.init) seeds.push_back(parametrisation_.from_material(*options_.init));
+    for (const Material& seed : seeds_) seeds.push_back(parametrisation_.from_material(seed));
     candidates_ = explore(on_part_, on_part_wide_, data_.part, seeds, {start_count(), options_.seed});
     result_.starts = static_cast<int>(candidates_.size());
     for (const Candidate& candidate : candidates_) result_.evaluations += candidate.solution.evaluations;
@@ -211,8 +231,6 @@ class Fitter {
           result_.largest_albedo));
     }
     if (options_.on == FitOn::kSlices) {
-      result_.notes.push_back(
-          "fitted on slices alone: the errors on the whole table tell what that is worth");
     }
     if (options_.max_theta_deg < 90.0) {
       result_.notes.push_back(
@@ -223,6 +241,7 @@ class Fitter {
 
   const MeasuredTable& table_;
   FitOptions options_;
+  std::vector<Material> seeds_;
   Stopwatch watch_;
   Parametrisation parametrisation_;
   Data data_;
@@ -233,6 +252,69 @@ class Fitter {
   Decided published_;
   FitResult result_;
 };
+
+// At phi_d = 90 deg cos_i and cos_o are the same, and the smooth terminator is a second knob for what the
+// Fresnel terms do at grazing angles.
+bool is_blind_to_terminator(const FitOptions& options) {
+  constexpr double kNear = 10.0;
+  return options.on == FitOn::kSlices &&
+         std::ranges::all_of(options.phi_d_deg, [](double phi_d) { return std::abs(phi_d - 90.0) <= kNear; });
+}
+
+bool leaves_terminator_off(const FitOptions& options) {
+  return options.model == Model::kCallisto && options.choose_groups && !options.effects && !options.groups &&
+         is_blind_to_terminator(options);
+}
+
+SelectionOptions choice_of(const FitOptions& options) {
+  SelectionOptions choice;
+  choice.threshold = options.group_threshold;
+  choice.usable = usable_groups_of(options);
+  if (leaves_terminator_off(options)) {
+    choice.usable =
+        choice.usable.without(groups_of_effects(options.model, Effects().with(Effect::kSmoothTerminator)));
+  }
+  for (const auto& [name, values] : options.fixed) {
+    const auto group = group_of_parameter(options.model, name);
+    if (!group) continue;
+    const auto effect = *group_by_name(options.model, effect_name(groups_of(options.model)[*group].effect));
+    choice.required = choice.required.with(*group).with(effect);
+  }
+  choice.usable = choice.usable | choice.required;
+  return choice;
+}
+
+CrossValidation cross_validation(const MeasuredTable& table, const Drawn& drawn, const FitOptions& options) {
+  FoldOptions folding;
+  folding.seed = options.seed;
+  // An earlier material may come from all of the data: folds do not begin from it.
+  FitOptions without_init = options;
+  without_init.init.reset();
+  CrossValidationOptions validating;
+  validating.start = start_material(without_init);
+  validating.tier = options.tier;
+  validating.fixed = options.fixed;
+  validating.loss = options.loss;
+  validating.seed = options.seed;
+  return {make_folds(drawn.samples, drawn.cells, table.grid(), folding), validating};
+}
+
+// What the choice of data means for the result.
+void add_notes_on_data(FitResult& result) {
+  const FitOptions& options = result.options;
+  if (leaves_terminator_off(options)) {
+    result.notes.emplace_back(
+        "a slice at phi_d = 90 deg does not show the smooth terminator: it was left at its default "
+        "(--effects "
+        "with its name has it fitted)");
+  }
+  if (options.on == FitOn::kSlices) {
+    result.notes.push_back(fmt::format(
+        "fitted on slices alone: the log-ratio is {:.1f}% on the slice at 90 deg and {:.1f}% on the "
+        "whole table",
+        result.evaluation.slice.log_ratio_pct, result.evaluation.table.log_ratio_pct));
+  }
+}
 
 }  // namespace
 
@@ -252,6 +334,9 @@ bool FitOptions::is_valid(std::string* why) const {
     if (why != nullptr) *why = text;
     return false;
   };
+  if (!(group_threshold >= 0.0)) {
+    return fail(fmt::format("the threshold of groups is {}; 0 or more is needed", group_threshold));
+  }
   if (starts < 0) return fail(fmt::format("starts is {}; 0 or more is needed", starts));
   if (samples < 1) return fail("samples is 0; at least 1 is needed");
   if (!(max_theta_deg > 0.0 && max_theta_deg <= 90.0)) {
@@ -266,7 +351,7 @@ bool FitOptions::is_valid(std::string* why) const {
         fmt::format("the material to start from is {}, not {}", title_of(init->model()), title_of(model)));
   }
   try {
-    make_parametrisation(start_material(*this), {tier, effects_to_fit(*this), fixed});
+    make_parametrisation(start_material(*this), freedom_of(*this));
   } catch (const std::invalid_argument& error) {
     return fail(error.what());
   }
@@ -276,7 +361,29 @@ bool FitOptions::is_valid(std::string* why) const {
 FitResult fit(const MeasuredTable& table, const FitOptions& options) {
   std::string why;
   if (!options.is_valid(&why)) throw std::invalid_argument(why);
-  return Fitter(table, options).run();
+  Stopwatch watch;
+  Drawn drawn = draw_samples(table, options);
+  const double sample_seconds = watch.lap_seconds();
+  FitOptions chosen = options;
+  std::vector<Material> seeds;
+  std::optional<Selection> selection;
+  if (options.choose_groups && !choice_of(options).usable.empty()) {
+    CrossValidation validation = cross_validation(table, drawn, options);
+    if (!validation.folds().empty()) {
+      selection = select_groups(validation, options.model, choice_of(options));
+      chosen.groups = selection->chosen;
+      seeds = validation.materials(selection->chosen);
+    }
+  }
+  const double select_seconds = watch.lap_seconds();
+  FitResult result = Fitter(table, chosen, std::move(drawn.samples), std::move(seeds)).run();
+  result.options = options;
+  result.selection = std::move(selection);
+  add_notes_on_data(result);
+  result.timings.sample_seconds += sample_seconds;
+  result.timings.select_seconds = select_seconds;
+  result.timings.total_seconds += sample_seconds + select_seconds;
+  return result;
 }
 
 }  // namespace brdfit::fit

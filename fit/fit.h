@@ -12,6 +12,7 @@
 #include "fit/loss.h"
 #include "fit/metrics.h"
 #include "fit/parameters.h"
+#include "fit/select.h"
 #include "measured/sampling.h"
 #include "measured/table.h"
 
@@ -30,6 +31,13 @@ struct FitOptions {
   // The effects that the fit may use; all of the model's where absent. (Anisotropy never is: data are
   // isotropic.)
   std::optional<Effects> effects;
+  // Finer: the groups (fit/groups.h) of these effects that the fit may use; all where absent.
+  std::optional<Groups> groups;
+  // Uses of those groups only what lowers the held-out error by more than a threshold; see fit/select.h. A
+  // group with a fixed parameter stays on. On slices near phi_d = 90 deg, where cos_i = cos_o, the smooth
+  // terminator stays off unless `effects` or `groups` name what may be used.
+  bool choose_groups = false;
+  double group_threshold = kGroupThreshold;  // a share of the held-out error
   FixedValues fixed;
   // A material to start from, of the same model; its values hold where nothing is free.
   std::optional<Material> init;
@@ -49,6 +57,7 @@ struct FitOptions {
 
 struct FitTimings {
   double sample_seconds = 0.0;
+  double select_seconds = 0.0;    // which groups to use
   double explore_seconds = 0.0;   // all starts, on a part of the samples
   double refine_seconds = 0.0;    // the best of them, on all
   double evidence_seconds = 0.0;  // identifiability, the dielectric test
@@ -68,6 +77,8 @@ struct FitResult {
   bool converged = false;
   std::string termination;  // in words
   int free_parameters = 0;
+  Groups groups;                           // that were used
+  std::optional<Selection> selection;      // how they were chosen, where they were
   std::vector<ParameterState> parameters;  // every free or fixed public parameter
   std::vector<CorrelatedPair> correlated;
   std::vector<std::string> notes;  // what a reader of the result must know, in sentences

@@ -43,7 +43,8 @@ class Builder {
  public:
   Builder(const Material& start, const FreedomOptions& options) : options_(options) {
     result_.start = start;
-    result_.start.set_effects(options.effects);
+    result_.start.set_effects(effects_in(options, start.model()));
+    reset_groups_that_are_off();
     apply_fixed(result_.start, options.fixed);
   }
 
@@ -72,11 +73,31 @@ class Builder {
     return *find_parameter(result_.start.model(), name);
   }
 
+  static Effects effects_in(const FreedomOptions& options, Model model) {
+    if (!options.groups) return options.effects;
+    return Effects(options.effects.bits() & effects_of_groups(model, *options.groups).bits());
+  }
+
+  bool group_is_on(std::string_view name) const {
+    const auto group = group_of_parameter(result_.start.model(), name);
+    return !group || !options_.groups || options_.groups->has(*group);
+  }
+
+  void reset_groups_that_are_off() {
+    for (const ParameterInfo& row : parameters_of(result_.start.model())) {
+      if (group_is_on(row.name)) continue;
+      if (options_.fixed.contains(std::string(row.name))) {
+        throw std::invalid_argument("\"" + std::string(row.name) + "\" is fixed, but its group is off");
+      }
+      result_.start.set(row.name, row.default_value);
+    }
+  }
+
   bool is_free(std::string_view name) const {
     const ParameterInfo& row = info(name);
     // Isotropic data say nothing of a stretched highlight.
     if (row.effect == Effect::kAnisotropic) return false;
-    return row.tier <= options_.tier && options_.effects.has(row.effect) &&
+    return row.tier <= options_.tier && result_.start.effects().has(row.effect) && group_is_on(name) &&
            !options_.fixed.contains(std::string(name));
   }
 

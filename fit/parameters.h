@@ -3,11 +3,13 @@
 #define BRDFIT_FIT_PARAMETERS_H_
 
 #include <map>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "brdf/material.h"
+#include "fit/groups.h"
 
 namespace brdfit::fit {
 
@@ -57,11 +59,13 @@ struct FreedomOptions {
   Tier tier = Tier::kFull;
   Effects effects;  // of the model
   FixedValues fixed;
+  // Of the model; all where absent. Parameters of the others stand at their defaults.
+  std::optional<Groups> groups = {};
 };
 
 // start: the model, its options, and the values of parameters that are not free.
 // Throws std::invalid_argument: an unknown parameter or a value out of range in `fixed`, effects that the
-// model does not have, a parameter fixed whose effect is off.
+// model does not have, a parameter fixed whose effect or group is off.
 Parametrisation make_parametrisation(const Material& start, const FreedomOptions& options);
 
 }  // namespace brdfit::fit

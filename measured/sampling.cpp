@@ -190,8 +190,16 @@ SampleSet SampleSet::thinned(std::size_t stride) const {
   return result;
 }
 
+SampleSet SampleSet::subset(std::span<const std::size_t> indices) const {
+  SampleSet result;
+  result.reserve(indices.size());
+  for (const std::size_t k : indices) result.add(cell(k), {f_[0][k], f_[1][k], f_[2][k]}, weight_[k]);
+  result.finish();
+  return result;
+}
+
 SampleSet sample_table(const MeasuredTable& table, std::size_t cell_count, std::uint64_t seed,
-                       const SamplingOptions& options) {
+                       const SamplingOptions& options, std::vector<std::size_t>* observed) {
   const GridGeometry geometry(table.grid());
   const OrderedCells cells(table, geometry, lowest_observed_cosine(options.max_theta_deg),
                            rows_per_stratum(table, cell_count));
@@ -215,13 +223,14 @@ SampleSet sample_table(const MeasuredTable& table, std::size_t cell_count, std::
   for (std::size_t k = 0; k < count; ++k) {
     const auto& [i_h, i_d, i_p] = places[k];
     samples.add(geometry.cell(i_h, i_d, i_p), f[k], static_cast<double>(ends[k + 1] - ends[k]));
+    if (observed != nullptr) observed->push_back(table.grid().index(i_h, i_d, i_p));
   }
   samples.finish();
   return samples;
 }
 
 SampleSet sample_slices(const MeasuredTable& table, std::span<const double> phi_d_deg,
-                        const SamplingOptions& options) {
+                        const SamplingOptions& options, std::vector<std::size_t>* observed) {
   SampleSet samples;
   const Grid& grid = table.grid();
   const GridGeometry angles(grid);
@@ -237,6 +246,7 @@ SampleSet sample_slices(const MeasuredTable& table, std::span<const double> phi_
         const CellGeometry geometry = angles.cell(i_h, i_d, i_p);
         if (std::min(geometry.cos_i, geometry.cos_o) < min_cosine) continue;
         samples.add(geometry, table.value(cell), weight);
+        if (observed != nullptr) observed->push_back(cell);
       }
     }
   }

@@ -44,6 +44,9 @@ class SampleSet {
   // Every stride-th observation, beginning with the first; weights rescaled.
   SampleSet thinned(std::size_t stride) const;
 
+  // The observations with these indices, in that order; weights rescaled.
+  SampleSet subset(std::span<const std::size_t> indices) const;
+
  private:
   CellGeometry cell(std::size_t k) const;
 
@@ -66,15 +69,16 @@ inline constexpr std::size_t kAllSamples = std::numeric_limits<std::size_t>::max
 // neighbours together (a theta_h row, patches of theta_d and phi_d within it), cut into cell_count strata of
 // equal size, and one cell is drawn from each. As the grid itself is square-root spaced in theta_h, the peak
 // is resolved. cell_count: kAllSamples, or more than there are, takes every cell once. The same seed gives
-// the same sample, whatever the number of threads.
+// the same sample, whatever the number of threads. cells: gets each observation's cell of the table, where
+// not null.
 SampleSet sample_table(const MeasuredTable& table, std::size_t cell_count, std::uint64_t seed,
-                       const SamplingOptions& options);
+                       const SamplingOptions& options, std::vector<std::size_t>* cells = nullptr);
 
 // The slices at the stored phi_d nearest below each angle. Every stored row is used, so that the peak is
 // resolved; a row weighs as much as it takes of a slice that is linear in theta_h, half by its width, half by
-// the pixels of the slice measures (measured/slice.h) that show it.
+// the pixels of the slice measures (measured/slice.h) that show it. cells: as above.
 SampleSet sample_slices(const MeasuredTable& table, std::span<const double> phi_d_deg,
-                        const SamplingOptions& options);
+                        const SamplingOptions& options, std::vector<std::size_t>* cells = nullptr);
 
 }  // namespace brdfit
 

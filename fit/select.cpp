@@ -1,0 +1,222 @@
+// Growing and pruning a set of groups.
+#include "fit/select.h"
+
+#include <algorithm>
+
+namespace brdfit::fit {
+namespace {
+
+using Request = CrossValidation::Request;
+
+// Fresh starts of a fit that has others to begin from too, and of one that has little or nothing.
+constexpr int kFewStarts = 1;
+constexpr int kManyStarts = 3;
+constexpr int kStartsOfAll = 8;
+constexpr std::uint64_t kKicksOfAll = 3;  // rounds
+
+// A group without which the error is beyond the bound by more than this share is not tried again when others
+// have gone: it will hardly be missed less.
+constexpr double kNeeded = 0.05;
+
+class Selector {
+ public:
+  Selector(CrossValidation& validation, Model model, const SelectionOptions& options)
+      : validation_(validation), model_(model), options_(options), set_(options.required) {}
+
+  Selection run() {
+    result_.required = set_;
+    result_.threshold = options_.threshold;
+    validation_.fit({{set_, {}, kManyStarts}});
+    while (grow()) {
+    }
+    compare_with_all();
+    do {
+      // What was not worth its place before may be after others have gone. The bound of pruning only falls
+      // and growing goes below it, so this ends.
+      do {
+        while (prune()) {
+        }
+      } while (grow());
+    } while (compare_with_all());
+    result_.chosen = set_;
+    result_.held_out_without = validation_.held_out(options_.required);
+    write_errors();
+    result_.held_out = validation_.held_out(set_);
+    result_.held_out_all = validation_.held_out(options_.usable);
+    result_.parameters = validation_.free_numbers(set_);
+    result_.parameters_without = validation_.free_numbers(options_.required);
+    result_.parameters_all = validation_.free_numbers(options_.usable);
+    result_.sets = static_cast<int>(validation_.sets());
+    result_.evaluations = validation_.evaluations();
+    return std::move(result_);
+  }
+
+ private:
+  struct Move {
+    Groups groups;
+    Groups set;            // after it
+    std::size_t head = 0;  // the group that it is about; the others refine it
+  };
+
+  void step_to(const Move& move, bool removed) {
+    LadderStep step;
+    step.groups = names_of_groups(model_, move.groups);
+    step.removed = removed;
+    step.parameters = validation_.free_numbers(move.set) - validation_.free_numbers(set_);
+    step.set = move.set;
+    result_.ladder.push_back(std::move(step));
+    if (!removed) needed_ = Groups();
+    before_ = set_;
+    set_ = move.set;
+  }
+
+  void write_errors() {
+    HeldOut before = result_.held_out_without;
+    for (LadderStep& step : result_.ladder) {
+      const HeldOut after = validation_.held_out(step.set);
+      step.held_out_before_pct = before.log_ratio_pct;
+      step.held_out_after_pct = after.log_ratio_pct;
+      step.standard_error_pct = standard_error_of_difference(before, after);
+      before = after;
+    }
+  }
+
+  const Move& best_of(const std::vector<Move>& moves) const {
+    return *std::ranges::min_element(moves, {}, [&](const Move& m) { return validation_.error(m.set); });
+  }
+
+  std::vector<Move> additions() const {
+    std::vector<Move> moves;
+    for (std::size_t k = 0; k < groups_of(model_).size(); ++k) {
+      if (groups_of(model_)[k].refines || !options_.usable.has(k) || set_.has(k)) continue;
+      const Groups family = family_of(model_, k) & options_.usable;
+      moves.push_back({family, set_ | family, k});
+    }
+    return moves;
+  }
+
+  bool grow() {
+    const std::vector<Move> moves = additions();
+    if (moves.empty()) return false;
+    std::vector<Request> requests;
+    for (const Move& move : moves) {
+      // Fresh values alternate in sign from origin to origin: what has a sign is tried with both.
+      Request request = {move.set, {{set_, {}}}, kFewStarts};
+      if (effects_of_groups(model_, move.groups).has(Effect::kSmoothTerminator)) {
+        request.origins.push_back({set_, {}});
+      }
+      for (const Groups donor : {before_ | move.groups, options_.usable}) {
+        if (validation_.knows(donor)) request.origins.push_back({set_, donor});
+      }
+      // From everything, less what is off: where effects are together they may stand elsewhere than one by
+      // one.
+      if (validation_.knows(options_.usable)) request.origins.push_back({options_.usable, {}});
+      if (request.origins.size() == 1) request.origins.push_back({set_, {}});
+      requests.push_back(std::move(request));
+    }
+    validation_.fit(requests);
+    settle_in(moves);
+    const Move& best = best_of(moves);
+    if (!(validation_.error(best.set) < (1.0 - options_.threshold) * validation_.error(set_))) return false;
+    step_to(best, false);
+    return true;
+  }
+
+  // The set itself again, from what was found for sets around it: else a gain may be no more than a better
+  // minimum.
+  void settle_in(const std::vector<Move>& moves) {
+    Request request = {set_, {}, 0};
+    for (const Move& move : moves) request.origins.push_back({move.set, {}});
+    validation_.fit({request});
+  }
+
+  // From a set's own fits with one effect anew, or the three that shape the diffuse side: a descent does not
+  // take a term out of a wrong role, or across to the other sign.
+  std::vector<CrossValidation::Origin> kicks_of(Groups set) const {
+    const Groups shape = groups_of_effects(model_, Effects()
+                                                       .with(Effect::kDiffuseFresnel)
+                                                       .with(Effect::kRetroreflection)
+                                                       .with(Effect::kSmoothTerminator)) &
+                         set;
+    std::vector<CrossValidation::Origin> origins;
+    if (!shape.empty()) origins.push_back({set, {}, shape});
+    for (std::size_t k = 0; k < groups_of(model_).size(); ++k) {
+      if (set.has(k) && !groups_of(model_)[k].refines)
+        origins.push_back({set, {}, family_of(model_, k) & set});
+    }
+    return origins;
+  }
+
+  // Begins again from everything where that is better by more than the threshold. Everything is fitted from
+  // what was found so far too: its error must not be that of a poor minimum.
+  bool compare_with_all() {
+    const Groups all = options_.usable;
+    if (all == set_) return false;
+    Request request = {all, {{set_, {}}, {set_, {}}}, compared_with_all_ ? 0 : kStartsOfAll};
+    if (validation_.knows(all)) request.origins.push_back({set_, all});
+    const std::uint64_t rounds = compared_with_all_ ? 1 : kKicksOfAll;
+    compared_with_all_ = true;
+    validation_.fit({request});
+    for (std::uint64_t round = 0; round < rounds; ++round) validation_.fit({{all, kicks_of(all), 0, round}});
+    std::vector<CrossValidation::Origin> origins = kicks_of(set_);
+    origins.push_back({all, {}});
+    validation_.fit({{set_, origins, 0}});
+    if (!(validation_.error(set_) > (1.0 + options_.threshold) * validation_.error(all))) return false;
+    step_to({all.without(set_), all, 0}, false);
+    return true;
+  }
+
+  std::vector<Move> removals(Groups from) const {
+    std::vector<Move> moves;
+    for (std::size_t k = 0; k < groups_of(model_).size(); ++k) {
+      if (!from.has(k)) continue;
+      const Groups family = family_of(model_, k) & from;
+      if (!(family & options_.required).empty()) continue;
+      moves.push_back({family, from.without(family), k});
+    }
+    return moves;
+  }
+
+  double bound() const {
+    double least = std::min(validation_.error(set_), least_);
+    if (validation_.knows(options_.usable)) least = std::min(least, validation_.error(options_.usable));
+    return (1.0 + options_.threshold) * least;
+  }
+
+  bool prune() {
+    least_ = std::min(least_, validation_.error(set_));
+    std::vector<Move> moves = removals(set_);
+    std::erase_if(moves, [&](const Move& move) { return needed_.has(move.head); });
+    if (moves.empty()) return false;
+    std::vector<Request> requests;
+    for (const Move& move : moves) {
+      requests.push_back({move.set, {{set_, {}}}, move.groups.size() > 1 ? kFewStarts : 0});
+    }
+    validation_.fit(requests);
+    for (const Move& move : moves) {
+      if (validation_.error(move.set) > (1.0 + kNeeded) * bound()) needed_ = needed_.with(move.head);
+    }
+    const Move& best = best_of(moves);
+    if (!(validation_.error(best.set) <= bound())) return false;
+    step_to(best, true);
+    return true;
+  }
+
+  CrossValidation& validation_;
+  Model model_;
+  const SelectionOptions& options_;
+  Groups set_;
+  Groups before_;
+  Groups needed_;  // that pruning need not try again
+  bool compared_with_all_ = false;
+  double least_ = std::numeric_limits<double>::infinity();
+  Selection result_;
+};
+
+}  // namespace
+
+Selection select_groups(CrossValidation& validation, Model model, const SelectionOptions& options) {
+  return Selector(validation, model, options).run();
+}
+
+}  // namespace brdfit::fit
