@@ -82,6 +82,7 @@ std::vector<JudgedFit> fit_all(const Arguments& a, const std::string& name, cons
     if (interrupted()) throw std::runtime_error("interrupted; the files before are complete");
     fit::FitOptions options;
     options.model = model;
+    options.choose_groups = true;  // as `fit` does
     results.push_back(fit_and_judge(table, options, judge));
     const auto file = in(a, fmt::format("{}.{}.json", name, name_of(model)));
     io::write_material(file, results.back().fit.material, evidence_to_json(results.back(), provenance));

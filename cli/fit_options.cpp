@@ -172,8 +172,10 @@ void add_fit_arguments(CLI::App& app, FitArguments& a) {
          "leave out directions further from the normal, in degrees (MERL is extrapolated above about 80)")
       ->capture_default_str();
   app.add_option("--samples", a.samples, "cells of the table to fit, or all")->capture_default_str();
-  app.add_option("--loss", a.loss, "what is minimised")
-      ->check(CLI::IsMember(names_of(fit::all_losses())))
+  app.add_option("--loss", a.loss,
+                 "what is minimised; auto fits under each and keeps the one whose spheres look most like the "
+                 "measured ones")
+      ->check(CLI::IsMember(with(names_of(fit::all_losses()), {"auto"})))
       ->capture_default_str();
   app.add_option("--starts", a.starts,
                  "points from which the search begins; 0: 4 to 12, by the number of free parameters")
@@ -214,7 +216,8 @@ std::vector<fit::FitOptions> make_fit_options(const FitArguments& a) {
     options.phi_d_deg = a.phi_d_deg;
     options.max_theta_deg = a.max_theta_deg;
     options.samples = parse_samples(a.samples);
-    options.loss = *fit::loss_by_name(a.loss);
+    options.choose_loss = a.loss == "auto";
+    if (!options.choose_loss) options.loss = *fit::loss_by_name(a.loss);
     options.starts = a.starts;
     options.seed = a.seed;
     all.push_back(options);

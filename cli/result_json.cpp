@@ -65,6 +65,16 @@ Json ladder_to_json(const fit::Selection& selection) {
   return ladder;
 }
 
+Json losses_to_json(const fit::FitResult& result) {
+  Json losses = Json::array();
+  for (const fit::LossTrial& trial : result.losses) {
+    losses.push_back({{"loss", name_of(trial.loss)},
+                      {"sphere_delta_e", trial.judged},
+                      {"kept", trial.loss == result.options.loss}});
+  }
+  return losses;
+}
+
 Json options_to_json(const fit::FitOptions& options) {
   Json json;
   json["tier"] = name_of(options.tier);
@@ -76,7 +86,7 @@ Json options_to_json(const fit::FitOptions& options) {
   json["max_theta_deg"] = options.max_theta_deg;
   json["effects"] = effects_to_json(options);
   if (options.choose_groups) json["group_threshold"] = options.group_threshold;
-  json["loss"] = name_of(options.loss);
+  json["loss"] = options.choose_loss ? "auto" : name_of(options.loss);
   json["starts"] = options.starts;
   json["seed"] = options.seed;
   Json fixed = Json::object();
@@ -158,6 +168,7 @@ Json evidence_to_json(const JudgedFit& judged, const Provenance& provenance) {
   json.update(evaluation_to_json(result.evaluation, judged.sphere.delta_e));
   json["largest_directional_albedo"] = result.largest_albedo;
   add_selection(result, json);
+  if (!result.losses.empty()) json["losses"] = losses_to_json(result);
   Json parameters = Json::object();
   for (const fit::ParameterState& state : result.parameters) {
     parameters[state.name] = parameter_to_json(result.material, state);

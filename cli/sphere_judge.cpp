@@ -3,6 +3,8 @@
 
 #include <algorithm>
 
+#include "fit/choose_loss.h"
+
 namespace brdfit::cli {
 
 TableJudge::TableJudge(const MeasuredTable& reference, std::size_t candidates)
@@ -18,7 +20,13 @@ JudgedSphere TableJudge::operator()(const render::Subject& candidate) const {
 }
 
 JudgedFit fit_and_judge(const MeasuredTable& table, const fit::FitOptions& options, const TableJudge& judge) {
-  JudgedFit result = {fit::fit(table, options), {}};
+  JudgedFit result;
+  if (options.choose_loss) {
+    result.fit = fit::fit_under_best_loss(
+        table, options, [&judge](const Material& material) { return judge(material).delta_e.mean; });
+  } else {
+    result.fit = fit::fit(table, options);
+  }
   result.sphere = judge(result.fit.material);
   return result;
 }

@@ -47,6 +47,8 @@ struct FitOptions {
   double max_theta_deg = 90.0;
   std::size_t samples = 20000;  // cells of the table; kAllSamples for every one
   Loss loss = Loss::kLogRatio;
+  // Asks for the loss whose result looks best; fit() itself takes `loss` (see fit/choose_loss.h).
+  bool choose_loss = false;
   int starts = 0;  // points from which the search begins; 0: 4 to 12, by the number of free parameters
   std::uint64_t seed = 1;
 
@@ -65,6 +67,12 @@ struct FitTimings {
   double total_seconds = 0.0;
 };
 
+// A loss, and how its result was judged.
+struct LossTrial {
+  Loss loss = Loss::kLogRatio;
+  double judged = 0.0;
+};
+
 struct FitResult {
   Material material;
   FitOptions options;
@@ -79,6 +87,7 @@ struct FitResult {
   int free_parameters = 0;
   Groups groups;                           // that were used
   std::optional<Selection> selection;      // how they were chosen, where they were
+  std::vector<LossTrial> losses;           // that were tried, where the loss was chosen
   std::vector<ParameterState> parameters;  // every free or fixed public parameter
   std::vector<CorrelatedPair> correlated;
   std::vector<std::string> notes;  // what a reader of the result must know, in sentences
