@@ -242,7 +242,7 @@ TEST_F(FitSchema, WhatIsWrittenIsValidForEveryChoiceOfModel) {
   for (const char* tier : {"base", "advanced"}) {
     expect_valid("--samples 500 --tier " + std::string(tier), 3);
   }
-  for (const char* loss : {"cube-root", "linear", "srgb", "slice"}) {
+  for (const char* loss : {"cube-root", "linear", "srgb", "slice", "auto"}) {
     expect_valid("--samples 500 --model lambert-ggx --loss " + std::string(loss), 1);
   }
 }
