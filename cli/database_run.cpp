@@ -293,8 +293,10 @@ class Database {
       if (!table_.failures.contains(fs::path(job.input).filename().string())) good.push_back(&job);
     }
     if (good.empty()) return;
-    std::vector<double> floors;
-    for (int k = 0; k < 5; ++k) floors.push_back(load_floor_seconds(good.front()->input));
+    // By all workers at once, as the fits were.
+    std::vector<double> floors(static_cast<std::size_t>(5 * workers_));
+    run_jobs(floors.size(), workers_,
+             [&](std::size_t k) { floors[k] = load_floor_seconds(good[k % good.size()]->input); });
     std::ranges::sort(floors);
     fmt::print(stderr, "{}", floors_text(table_, floors[floors.size() / 2]));
     const int used = std::min(workers_, static_cast<int>(jobs_.size()));
