@@ -59,6 +59,9 @@ void prepare_output(const std::filesystem::path& file, bool force);
 // "black-soft-plastic" of "dir/black-soft-plastic.binary".
 std::string base_name(const std::filesystem::path& file);
 
+// A word as a shell takes it: in quotes where it needs them.
+std::string quoted_word(const std::string& word);
+
 // Whether Ctrl-C or a request to end has come since the program began; long work asks between its steps.
 void watch_for_interruption();
 bool interrupted();

@@ -4,6 +4,7 @@
 #include <array>
 
 #include "cli/common.h"
+#include "cli/fit_request.h"
 #include "cli/report_data.h"
 #include "cli/result_json.h"
 #include "cli/result_text.h"
@@ -75,7 +76,7 @@ void prepare_outputs(const Arguments& a, const std::vector<synthetic::Recipe>& r
 std::vector<JudgedFit> fit_all(const Arguments& a, const std::string& name, const MeasuredTable& table,
                                const TableJudge& judge, const std::string& command_line) {
   const std::string input = name + ".binary";
-  const Provenance provenance = {
+  Provenance provenance = {
       input, io::sha256_of_file(in(a, input)), kVersion, false, 0, "lower-edge", input, command_line};
   std::vector<JudgedFit> results;
   for (const Model model : all_models()) {
@@ -83,6 +84,7 @@ std::vector<JudgedFit> fit_all(const Arguments& a, const std::string& name, cons
     fit::FitOptions options;
     options.model = model;
     options.choose_groups = true;  // as `fit` does
+    provenance.request = request_of(options, {});
     results.push_back(fit_and_judge(table, options, judge));
     const auto file = in(a, fmt::format("{}.{}.json", name, name_of(model)));
     io::write_material(file, results.back().fit.material, evidence_to_json(results.back(), provenance));

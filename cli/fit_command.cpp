@@ -3,6 +3,7 @@
 
 #include "cli/common.h"
 #include "cli/fit_options.h"
+#include "cli/fit_request.h"
 #include "cli/load_floor.h"
 #include "cli/result_json.h"
 #include "cli/result_text.h"
@@ -82,15 +83,16 @@ int run(const Arguments& a, const std::string& command_line) {
     say(a.common, fmt::format("fitting {} to {}", title_of(options.model), base_name(a.file)));
     results.push_back(fit_and_judge(loaded.table, options, judge));
   }
-  const Provenance provenance = {std::filesystem::path(a.file).filename().string(),
-                                 io::sha256_of_file(a.file),
-                                 kVersion,
-                                 a.fit.lenient,
-                                 loaded.report.non_finite_values,
-                                 a.fit.cell,
-                                 path_from(a.output, a.file),
-                                 command_line};
+  Provenance provenance = {std::filesystem::path(a.file).filename().string(),
+                           io::sha256_of_file(a.file),
+                           kVersion,
+                           a.fit.lenient,
+                           loaded.report.non_finite_values,
+                           a.fit.cell,
+                           path_from(a.output, a.file),
+                           command_line};
   for (const JudgedFit& judged : results) {
+    provenance.request = request_of(judged.fit.options, a.fit);
     io::write_material(material_path(a, judged.fit.options), judged.fit.material,
                        evidence_to_json(judged, provenance));
   }

@@ -26,12 +26,7 @@ int exit_code_of(const CLI::ParseError& error, const CLI::App& program) {
 std::string command_line_of(int argc, char** argv) {
   std::string line = "brdfit";
   for (int k = 1; k < argc; ++k) {
-    const std::string word = argv[k];
-    const bool is_plain =
-        !word.empty() && word.find_first_of(" \t\n'\"\\$*?[]{}();&|<>~#!`") == std::string::npos;
-    std::string quoted = "'";
-    for (const char c : word) quoted += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    line += " " + (is_plain ? word : quoted + "'");
+    line += " " + quoted_word(argv[k]);
   }
   return line;
 }

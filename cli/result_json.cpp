@@ -142,6 +142,10 @@ Json evaluation_to_json(const fit::Evaluation& evaluation, const render::SphereD
       {"sphere_delta_e_by_light", by_light_to_json(sphere)},   {"sphere_pixels_skipped", sphere.skipped}};
 }
 
+Json fit_options_to_json(const fit::FitOptions& options) {
+  return options_to_json(options);
+}
+
 Json evidence_to_json(const JudgedFit& judged, const Provenance& provenance) {
   const fit::FitResult& result = judged.fit;
   Json json;
@@ -153,6 +157,7 @@ Json evidence_to_json(const JudgedFit& judged, const Provenance& provenance) {
                    {"path", provenance.path}};
   if (provenance.lenient) json["input"]["non_finite_values"] = provenance.non_finite_values;
   json["options"] = options_to_json(result.options);
+  json["request"] = provenance.request;
   json["observations"] = result.observations;
   json["weights"] = result.options.on == fit::FitOn::kTable
                         ? "every cell of the table alike; a sampled cell stands for its stratum"

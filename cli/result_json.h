@@ -21,12 +21,17 @@ struct Provenance {
   std::string cell;     // "lower-edge" or "centre"
   std::string path;     // of the input from the folder of the result, so that a report finds it
   std::string command;  // the line that was typed
+  // Of request_of(): what was asked, so that a run knows a finished result.
+  std::string request = "";
 };
 
 // `path` of a provenance. Empty where there is no way from one to the other.
 std::string path_from(const std::filesystem::path& folder, const std::filesystem::path& file);
 
 io::Json measures_to_json(const fit::Measures& measures);
+
+// The options of a fit that the evidence holds.
+io::Json fit_options_to_json(const fit::FitOptions& options);
 
 // The member "fit" of a material file. Everything that changes from run to run is under "timings_seconds".
 io::Json evidence_to_json(const JudgedFit& judged, const Provenance& provenance);

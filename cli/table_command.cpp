@@ -5,11 +5,15 @@
 #include <map>
 
 #include "cli/common.h"
+#include "cli/database_run.h"
 #include "cli/fit_options.h"
+#include "cli/fit_request.h"
 #include "cli/result_json.h"
 #include "cli/result_text.h"
 #include "cli/sphere_judge.h"
 #include "cli/table_input.h"
+#include "cli/table_merge.h"
+#include "cli/table_output.h"
 #include "cli/threads.h"
 #include "fit/fit.h"
 #include "io/material_json.h"
@@ -22,6 +26,12 @@ struct Arguments {
   FitArguments fit;
   std::vector<std::string> inputs;
   std::vector<std::string> against;
+  std::string output;
+  std::string shard;
+  bool merge = false;
+  bool published = false;
+  bool timings = false;
+  std::function<std::string()> fit_options;  // as typed
 };
 
 // One line of the result: a measured file and what was held against it.
@@ -185,7 +195,43 @@ void print_rows(const CommonOptions& common, const std::vector<Row>& rows,
   fmt::print("{}", format_table(heading, cells));
 }
 
+// Options that need each other, or do not go together.
+void check(const Arguments& a) {
+  if (a.output.empty()) {
+    if (!a.shard.empty()) throw UsageError("--shard needs -o");
+    if (a.merge) throw UsageError("--merge needs -o");
+    if (a.timings) throw UsageError("--timings needs -o");
+    if (a.published) throw UsageError("--published needs -o");
+  }
+  if (!a.output.empty() && !a.against.empty()) {
+    throw UsageError("--against compares what is there, and -o is for fits");
+  }
+  if (a.merge && !a.shard.empty()) throw UsageError("--merge joins shards, so it has none itself");
+}
+
+int run_into_folder(const Arguments& a) {
+  DatabaseRun run = {
+      a.common,  a.fit,          {}, a.output, a.shard.empty() ? Shard{} : parse_shard(a.shard), a.published,
+      a.timings, a.fit_options()};
+  run.files = expand(a.inputs);
+  const ThreadLimit threads(a.common.threads);
+  return run_database(run);
+}
+
+int merge(const Arguments& a) {
+  const ResultTable table = merge_runs(a.inputs, a.output, a.common.force);
+  if (a.common.json) {
+    fmt::print("{}\n", table_json(table, {}).dump(2));
+  } else {
+    fmt::print("{}\n{}", table_text(table), timings_text(table));
+  }
+  return table.failures.empty() ? kDone : kNotAllDone;
+}
+
 int run(const Arguments& a) {
+  check(a);
+  if (a.merge) return merge(a);
+  if (!a.output.empty()) return run_into_folder(a);
   const std::vector<fit::FitOptions> all_options = make_fit_options(a.fit);
   const std::vector<std::string> files = expand(a.inputs);
   const ThreadLimit threads(a.common.threads);
@@ -221,13 +267,28 @@ Command add_table_command(CLI::App& program) {
   CLI::App* app = program.add_subcommand("table", "error tables over many measured tables and models");
   app->footer(
       "Example: brdfit table merl/ --model all\n"
+      "Example: brdfit table merl/ --model all -o out\n"
+      "writes a result for each file and model and the tables; started again, it goes on where it stopped.\n"
+      "Example: brdfit table merl/ --shard 2/8 -o out/2\n"
+      "does the second eighth of the files; brdfit table --merge out/* -o whole joins them.\n"
       "Example: brdfit table blue-fabric.binary --against fit.json exported.binary\n"
       "holds materials or tables that exist against the measured one, without fitting.");
-  app->add_option("inputs", a->inputs, "MERL-format files, or folders of them")->required();
+  app->add_option("inputs", a->inputs, "MERL-format files, or folders of them (--merge: folders of runs)")
+      ->required();
   app->add_option("--against", a->against,
                   "material JSON or MERL-format files to compare instead of fitting");
+  app->add_option("-o,--output", a->output, "folder for a file per result and for the tables")->take_last();
+  app->add_option("--shard", a->shard, "I/N: do only the I-th of N parts of the files");
+  app->add_flag("--merge", a->merge, "join the folders of shards into one");
+  app->add_flag(
+      "--published", a->published,
+      "compare the parameters that the Callisto talk set by hand too, for the materials of that name");
+  app->add_flag("--timings", a->timings,
+                "tell times in units of the load floor, memory per worker, and how the run scales beside a "
+                "plain loop (fits some tables again)");
   add_fit_arguments(*app, a->fit);
-  add_common_options(*app, a->common, false);
+  add_common_options(*app, a->common, true);
+  a->fit_options = [app] { return given_fit_options(*app); };
   return {app, [a](const std::string&) { return run(*a); }};
 }
 

@@ -29,6 +29,12 @@ TEST(Sha256, ReadsFilesOfManyPieces) {
             "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");
 }
 
+TEST(Sha256, OfTextIsThatOfAFileWithIt) {
+  for (const std::string& text : {std::string(), std::string("abc"), std::string(100000, 'x')}) {
+    EXPECT_EQ(sha256_of_text(text), digest_of(text));
+  }
+}
+
 TEST(Sha256, AFileThatIsNotThereIsAnError) {
   const tests::TempFolder folder;
   EXPECT_THROW(sha256_of_file(folder / "none"), IoError);
