@@ -84,34 +84,24 @@ void advance_all(const Problem& problem, Search& search) {
   if (other.solution.cost < search.solution.cost) search = other;
 }
 
-// Stage by stage, then everything.
-Search staged(const Problem& problem, const std::vector<double>& x) {
-  Search search;
-  search.solution.x = x;
-  search.box = box_at(problem.parametrisation(), x);
-  for (const std::vector<std::size_t>& stage : staging(problem.parametrisation())) {
-    Box box = search.box;
-    box.moves.assign(box.moves.size(), false);
-    for (const std::size_t k : stage) box.moves[k] = true;
-    leave_plateau(problem.parametrisation(), search.solution.x);
-    advance(problem, search, box, kStage);
-  }
-  advance_all(problem, search);
-  return search;
+// Moves some numbers and holds the others.
+void advance_some(const Problem& problem, Search& search, const std::vector<std::size_t>& moving) {
+  Box box = search.box;
+  box.moves.assign(box.moves.size(), false);
+  for (const std::size_t k : moving) box.moves[k] = true;
+  leave_plateau(problem.parametrisation(), search.solution.x);
+  advance(problem, search, box, kStage);
 }
 
-// From a point that was a minimum for another set: what is new first, then everything.
-Search continued(const Problem& problem, const std::vector<double>& x,
-                 const std::vector<std::size_t>& fresh) {
+// Stage by stage, then everything: from a start those of the staging, from a point that was a minimum for
+// another set what is new.
+Search searched(const Problem& problem, const std::vector<double>& x,
+                const std::vector<std::vector<std::size_t>>& stages) {
   Search search;
   search.solution.x = x;
   search.box = box_at(problem.parametrisation(), x);
-  if (!fresh.empty()) {
-    Box box = search.box;
-    box.moves.assign(box.moves.size(), false);
-    for (const std::size_t k : fresh) box.moves[k] = true;
-    leave_plateau(problem.parametrisation(), search.solution.x);
-    advance(problem, search, box, kStage);
+  for (const std::vector<std::size_t>& stage : stages) {
+    if (!stage.empty()) advance_some(problem, search, stage);
   }
   advance_all(problem, search);
   return search;
@@ -216,7 +206,7 @@ CrossValidation::FoldFit CrossValidation::fit_fold(const Request& request, std::
   std::vector<Search> searches;
   for (std::size_t k = 0; k < count; ++k) {
     if (k >= request.origins.size()) {
-      searches.push_back(staged(wide, fresh[k]));
+      searches.push_back(searched(wide, fresh[k], staging(wide.parametrisation())));
       continue;
     }
     const Origin& origin = request.origins[k];
@@ -231,7 +221,7 @@ CrossValidation::FoldFit CrossValidation::fit_fold(const Request& request, std::
         x[at] = anew ? turned(parameters, at, fresh[k][at], x[at]) : fresh[k][at];
       added.push_back(at);
     }
-    searches.push_back(continued(wide, x, added));
+    searches.push_back(searched(wide, x, {added}));
   }
   FoldFit best = {options_.start};
   for (const Search& search : searches) best.evaluations += search.solution.evaluations;
