@@ -57,17 +57,39 @@ void write_difference_values(const std::filesystem::path& file, const render::Di
   io::write_bytes(file, io::encode_exr({difference.width, difference.height, {"Y", "A"}, samples}, metadata));
 }
 
-// A difference with its colour bar on the right.
-render::Picture difference_figure(const render::Difference& difference, render::DifferenceKind kind,
-                                  double range, const std::string& units) {
+// What a difference shows, in the order in which it was taken.
+std::string difference_words(const SinglePicture& a, render::DifferenceKind kind) {
+  const std::string first = base_name(a.file);
+  const std::string second = base_name(a.minus);
+  if (kind == render::DifferenceKind::kLogRatio) return fmt::format("ln of {} / {}", first, second);
+  const std::string text = fmt::format("{} − {}", first, second);
+  return kind == render::DifferenceKind::kAbsolute ? "|" + text + "|" : text;
+}
+
+// A difference with a title above and its colour bar on the right.
+render::Picture difference_figure(const SinglePicture& a, const Drawing& drawing,
+                                  const render::Difference& difference, render::DifferenceKind kind,
+                                  double range) {
   const int text_px = std::max(13, difference.height / 28);
-  const render::Picture bar = render::colour_bar(
-      kind, range, kind == render::DifferenceKind::kLogRatio ? "" : units, difference.height, text_px);
+  const bool is_ratio = kind == render::DifferenceKind::kLogRatio;
+  const render::Picture bar =
+      render::colour_bar(kind, range, is_ratio ? "" : drawing.units, difference.height, text_px);
+  const std::string title = difference_words(a, kind);
   const int gap = text_px;
-  render::Canvas canvas(difference.width + 3 * gap + bar.width,
-                        std::max(difference.height, bar.height) + 2 * gap, {255, 255, 255});
-  canvas.paste(render::difference_picture(difference, kind, range), gap, gap);
-  canvas.paste(bar, difference.width + 2 * gap, gap);
+  const int top = 4 * text_px;
+  const auto width_of = [text_px](const std::string& text, render::FontWeight weight) {
+    return render::text_width(text, text_px, weight);
+  };
+  const int text_width = std::max(width_of(title, render::FontWeight::kBold),
+                                  width_of(drawing.what, render::FontWeight::kRegular));
+  render::Canvas canvas(2 * gap + std::max(difference.width + gap + bar.width, text_width),
+                        std::max(difference.height, bar.height) + top + gap, {255, 255, 255});
+  canvas.text(gap, gap, title,
+              {.size_px = text_px, .align_y = render::AlignY::kTop, .weight = render::FontWeight::kBold});
+  canvas.text(gap, gap + 3 * text_px / 2, drawing.what,
+              {.size_px = text_px, .align_y = render::AlignY::kTop});
+  canvas.paste(render::difference_picture(difference, kind, range), gap, top);
+  canvas.paste(bar, difference.width + 2 * gap, top);
   return canvas.picture();
 }
 
@@ -84,7 +106,7 @@ void write_difference(const SinglePicture& a, const Drawing& drawing, const rend
   }
   const double range = a.range > 0.0 ? a.range : render::difference_range({&difference, 1});
   const render::Picture picture = a.plain ? render::difference_picture(difference, kind, range)
-                                          : difference_figure(difference, kind, range, drawing.units);
+                                          : difference_figure(a, drawing, difference, kind, range);
   io::ImageMetadata metadata = png_metadata(a, drawing);
   metadata.emplace_back("brdfit:range", fmt::format("{:g}", range));
   write_picture(output, picture, metadata);

@@ -51,7 +51,12 @@ int run(const Arguments& a) {
     render::FigureOptions figure;
     figure.title = title;
     figure.view = view_options_of(a.single.picture);
-    return render::plain_figure(image, light, figure);
+    std::string caption = light;
+    if (in_environment) {
+      caption += fmt::format(", quadrature error {:.2g} of an 8-bit step",
+                             drawing.facts["quadrature_error_8bit_steps"].get<double>());
+    }
+    return render::plain_figure(image, caption, figure);
   };
   return draw_single(a.single, drawing);
 }

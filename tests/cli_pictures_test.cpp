@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <fstream>
 #include <limits>
@@ -94,13 +95,17 @@ TEST_F(CliPictures, ExrSaysWhatItHoldsAndPngHowItIsShown) {
 
 TEST_F(CliPictures, PlainPicturesHaveTheSizeAskedFor) {
   make_table("soft", Model::kLambertGgx, 1);
+  int count = 0;
   for (const char* command : {"slice", "sphere", "sphere --shape patch --light 90",
                               "sphere --environment uniform", "sphere --environment gradient"}) {
+    // OpenImageIO remembers files by name.
+    std::string name = std::to_string(count++);
+    name += ".png";
     const ProgramResult result = run(std::string(command) + " " + quoted("soft.binary") +
-                                     " --plain --size 48 --force -q -o " + quoted("p.png"));
+                                     " --plain --size 48 --force -q -o " + quoted(name));
     ASSERT_EQ(result.exit_code, 0) << command << result.err;
-    EXPECT_EQ(image("p.png").spec().width, 48) << command;
-    EXPECT_EQ(image("p.png").spec().height, 48) << command;
+    EXPECT_EQ(image(name).spec().width, 48) << command;
+    EXPECT_EQ(image(name).spec().height, 48) << command;
   }
 }
 
@@ -108,14 +113,33 @@ TEST_F(CliPictures, DifferenceToItselfIsZero) {
   make_table("soft", Model::kBurley, 1);
   for (const char* kind : {"signed", "absolute", "log-ratio"}) {
     ASSERT_EQ(run("slice " + quoted("soft.binary") + " --minus " + quoted("soft.binary") + " --difference " +
-                  kind + " --size 32 --force -o " + quoted("d.exr"))
+                  kind + " --size 32 --force -o " + quoted(std::string(kind) + ".exr"))
                   .exit_code,
               0);
-    const OIIO::ImageBuf d = image("d.exr");
+    const OIIO::ImageBuf d = image(std::string(kind) + ".exr");
     for (int y = 0; y < 32; ++y) {
       for (int x = 0; x < 32; ++x) EXPECT_EQ(d.getchannel(x, y, 0, 0), 0.0F);
     }
   }
+}
+
+TEST_F(CliPictures, ADifferenceForEyesHasRoomForItsTitleAndBar) {
+  make_table("soft", Model::kBurley, 1);
+  write_material("m.json", Model::kCallisto, 2);
+  const std::string slice =
+      "slice " + quoted("soft.binary") + " --minus " + quoted("m.json") + " --size 64 -o ";
+  ASSERT_EQ(run(slice + quoted("plain.png") + " --plain").exit_code, 0);
+  EXPECT_EQ(image("plain.png").spec().width, 64);
+  const ProgramResult drawn = run(slice + quoted("figure.png"));
+  ASSERT_EQ(drawn.exit_code, 0) << drawn.err;
+  const OIIO::ImageBuf figure = image("figure.png");
+  ASSERT_GT(figure.spec().width, 64 + 64 / 4);
+  ASSERT_GT(figure.spec().height, 64 + 40);
+  float darkest_in_title = 1.0F;
+  for (int x = 0; x < figure.spec().width; ++x) {
+    for (int y = 0; y < 40; ++y) darkest_in_title = std::min(darkest_in_title, figure.getchannel(x, y, 0, 0));
+  }
+  EXPECT_LT(darkest_in_title, 0.3F);
 }
 
 TEST_F(CliPictures, BadValuesAreRefusedOrCountedAndNamed) {
