@@ -50,8 +50,6 @@ constexpr std::string_view kHardlySeen = "the samples hardly depend on it";
 constexpr double kNeutral = 1e-3;
 // Of two numbers, as a cosine between their parts in unseen directions.
 constexpr double kTied = 0.3;
-// The least part in unseen directions for a tie.
-constexpr double kPart = 0.1;
 
 std::string words(std::string_view name) {
   std::string text(name);
@@ -85,18 +83,26 @@ std::string gate_reason(const Material& material, std::string_view parameter) {
 }
 
 // Public parameters other than its own that number k is tied to.
-std::vector<std::string> partners(const Parametrisation& parametrisation, const Eigen::MatrixXd& unseen,
+std::vector<std::string> partners(const Parametrisation& parametrisation, const Identifiability& before,
                                   std::size_t k) {
+  const Eigen::MatrixXd& unseen = before.unseen;
   std::vector<std::string> names;
   const auto at = static_cast<Eigen::Index>(k);
   for (std::size_t j = 0; j < parametrisation.size(); ++j) {
     const auto other = static_cast<Eigen::Index>(j);
     const std::string& name = parametrisation.free[j].parameter;
-    if (name == parametrisation.free[k].parameter || unseen(other, other) <= kPart * kPart) continue;
+    if (name == parametrisation.free[k].parameter || before.status[j] != Status::kUnidentifiable) continue;
     if (std::abs(unseen(at, other)) <= kTied * std::sqrt(unseen(at, at) * unseen(other, other))) continue;
     if (std::ranges::find(names, name) == names.end()) names.push_back(name);
   }
   return names;
+}
+
+// The second lobe can be no rougher than 1.
+std::string clipped_scale_reason(const Material& material, std::string_view parameter) {
+  if (parameter != "dual_specular_roughness_scale") return "";
+  const double roughness = material.number("roughness") * material.number(parameter);
+  return roughness > 1.0 ? "the second lobe's roughness is cut off at 1: more scale changes nothing" : "";
 }
 
 }  // namespace
@@ -117,8 +123,9 @@ std::vector<std::string> reasons_of(const Parametrisation& parametrisation, std:
   for (std::size_t k = 0; k < reasons.size(); ++k) {
     if (now.status[k] != Status::kUnidentifiable) continue;
     reasons[k] = gate_reason(material, parametrisation.free[k].parameter);
+    if (reasons[k].empty()) reasons[k] = clipped_scale_reason(material, parametrisation.free[k].parameter);
     if (!reasons[k].empty()) continue;
-    const std::vector<std::string> tied = partners(parametrisation, before.unseen, k);
+    const std::vector<std::string> tied = partners(parametrisation, before, k);
     reasons[k] = tied.empty() ? std::string(kHardlySeen)
                               : "tied to " + in_words(tied) + ": another combination fits as well";
   }

@@ -11,7 +11,10 @@
 namespace brdfit::fit {
 namespace {
 
-constexpr DescentOptions kSettling = {20, 1e-7, 1e-4};
+// Enough to see whether the others can make up for a default.
+constexpr DescentOptions kSettling = {12, 0.1 * kSettlingShare, 1e-4};
+// Attempts in vain before the rest is only tried as it stands: each costs as much as a refinement.
+constexpr int kMostFailures = 3;
 
 class Settling {
  public:
@@ -84,11 +87,14 @@ class Settling {
     trial.x = x;
     trial.cost = problem_.cost(x);
     ++settled_.evaluations;
-    if (!(trial.cost <= limit_)) {
+    if (!(trial.cost <= limit_) && failures_ < kMostFailures) {
       trial = descend(problem_, x, box, kSettling);
       settled_.evaluations += trial.evaluations;
     }
-    if (!(trial.cost <= limit_)) return false;
+    if (!(trial.cost <= limit_)) {
+      ++failures_;
+      return false;
+    }
     settled_.solution.x = trial.x;
     settled_.solution.cost = trial.cost;
     settled_.box = box;
@@ -135,6 +141,7 @@ class Settling {
   const double limit_;
   Settled settled_;
   Identifiability first_;
+  int failures_ = 0;
 };
 
 }  // namespace
