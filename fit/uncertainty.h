@@ -30,7 +30,8 @@ struct Uncertainty {
 // in turn, and the others are solved anew by one Newton step. So noise may differ from cell to cell, may be
 // correlated within a group, and need not be what the loss was made for; what must hold is that groups are
 // independent of each other, and that a step is small enough for residuals to be linear. Numbers at bounds of
-// the box or of their ranges, and those that do not move, are held: the errors of others are for that case.
+// the box or of their ranges, and those that do not move, are held: the errors of others are for that case. A
+// part in unseen directions too small to call a number unidentifiable is added to its variance.
 Uncertainty estimate_uncertainty(const Problem& problem, std::span<const double> x, const Box& box,
                                  const Identifiability& identifiability);
 

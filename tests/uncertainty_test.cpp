@@ -89,28 +89,30 @@ TEST_F(Uncertain, InverseLeavesOutWhatIsUnseen) {
   EXPECT_TRUE(inverse_of_gram(Eigen::Matrix2d::Zero(), Eigen::Vector2d::Ones()).isZero(0.0));
 }
 
-// With squares, noise of one size and a material that is nearly linear in its numbers, the jackknife must
-// give the textbook's s^2 (J^T J)^-1: to 1 / sqrt(2 groups) = 6%, of which the bound is three times.
+// With squares of log-ratios, and cells so bright that their noise is of one size, the jackknife must give
+// the textbook's s^2 (J^T J)^-1, to 1 / sqrt(2 groups) = 6%, of which the bound is three times.
 TEST_F(Uncertain, DeviationsAreThoseOfLinearLeastSquares) {
-  Material material = coloured();
+  Material material;
   material.set("base_color", Rgb{0.9, 0.8, 0.7});
-  const FixedValues fixed = {{"metallic", {0.0}}, {"specular", {0.5}}};
-  material.set("metallic", 0.0);
-  material.set("specular", 0.5);
-  const Solved solved(material, 0.02, Loss::kCubeRoot, 1, fixed);
+  material.set("roughness", 0.35);
+  OwnedProblem owned(noisy_table(material, 0.02), material,
+                     {Tier::kFull, {}, {{"metallic", {0.0}}, {"specular", {0.5}}}});
+  owned.targets.robust_width = 0.0;
+  std::ranges::fill(owned.targets.clipped_share, 0.0);
+  const Box box = full_box(owned.parametrisation);
+  const std::vector<double> x =
+      solve_pinning(owned.problem, owned.parametrisation.from_material(material), box, {}).x;
+  ASSERT_EQ(x.size(), 4U);
   double cost = 0.0;
-  const Eigen::MatrixXd gram = solved.owned.problem.gram(solved.x, &cost);
-  const auto n = static_cast<Eigen::Index>(solved.x.size());
-  ASSERT_EQ(n, 4);
-  // Noise of a cube root grows with the value: not of one size. What its own residuals say, sample by sample:
-  Eigen::MatrixXd scatter = Eigen::MatrixXd::Zero(n, n);
-  for (const Eigen::MatrixXd& group : solved.owned.problem.curvature_by_group(solved.x, 100000)) {
-    scatter += group.col(n).head(n) * group.col(n).head(n).transpose();
-  }
-  const Eigen::MatrixXd inverse = gram.topLeftCorner(n, n).inverse();
-  const Eigen::MatrixXd expected = inverse * scatter * inverse;
-  for (Eigen::Index k = 0; k < n; ++k) {
-    EXPECT_NEAR(solved.deviation(static_cast<std::size_t>(k)) / std::sqrt(expected(k, k)), 1.0, 0.18) << k;
+  const Eigen::MatrixXd gram = owned.problem.gram(x, &cost);
+  // Weights sum to 1 over cells, and the cost is half of the squares of three channels.
+  const auto cells = static_cast<double>(owned.samples.size());
+  const double variance = 2.0 * cost * cells / (3.0 * cells - 4.0);
+  const Eigen::MatrixXd expected = variance / cells * gram.topLeftCorner(4, 4).inverse();
+  const Uncertainty uncertainty =
+      estimate_uncertainty(owned.problem, x, box, identify(owned.parametrisation, x, gram));
+  for (Eigen::Index k = 0; k < 4; ++k) {
+    EXPECT_NEAR(std::sqrt(uncertainty.covariance(k, k) / expected(k, k)), 1.0, 0.18) << k;
   }
 }
 
