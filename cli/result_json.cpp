@@ -10,6 +10,20 @@ namespace {
 
 using io::Json;
 
+// A number, or null where there is none.
+Json error_to_json(const std::optional<double>& error) {
+  return error ? Json(*error) : Json();
+}
+
+// One number, three for a colour, or null where the fit did not move it.
+Json errors_to_json(const fit::ParameterState& state, int components) {
+  if (state.standard_error.empty()) return {};
+  if (components == 1) return error_to_json(state.standard_error.front());
+  Json errors = Json::array();
+  for (const std::optional<double>& error : state.standard_error) errors.push_back(error_to_json(error));
+  return errors;
+}
+
 Json parameter_to_json(const Material& material, const fit::ParameterState& state) {
   const ParameterInfo& info = *find_parameter(material.model(), state.name);
   Json json;
@@ -23,6 +37,8 @@ Json parameter_to_json(const Material& material, const fit::ParameterState& stat
     json["value"] = material.number(state.name);
     json["status"] = name_of(state.status);
   }
+  json["standard_error"] = errors_to_json(state, info.components);
+  if (!state.reason.empty()) json["reason"] = state.reason;
   return json;
 }
 

@@ -17,6 +17,15 @@ std::string range_text(const ParameterInfo& info) {
   return fmt::format("[{:g}, {:g}]", info.lower, info.upper);
 }
 
+std::string error_text(const fit::ParameterState& state) {
+  std::string text;
+  for (const std::optional<double>& error : state.standard_error) {
+    if (!text.empty()) text += " ";
+    text += error ? fmt::format("{:.2g}", *error) : "-";
+  }
+  return text;
+}
+
 std::string floors(double seconds, double floor_seconds) {
   return fmt::format("{:.2f}x", seconds / floor_seconds);
 }
@@ -100,11 +109,15 @@ std::string format_parameters(const fit::FitResult& result) {
   std::vector<std::vector<std::string>> rows;
   for (const fit::ParameterState& state : result.parameters) {
     const ParameterInfo& info = *find_parameter(result.material.model(), state.name);
-    rows.push_back({state.name, value_text(result.material, info), srgb_text(result.material, info),
-                    range_text(info), std::string(name_of(state.status))});
+    rows.push_back({state.name, value_text(result.material, info), error_text(state),
+                    srgb_text(result.material, info), range_text(info), std::string(name_of(state.status))});
   }
-  std::string text = std::string(title_of(result.material.model())) + "\n" +
-                     format_table({"parameter", "value", "8-bit sRGB", "range", "status"}, rows);
+  std::string text =
+      std::string(title_of(result.material.model())) + "\n" +
+      format_table({"parameter", "value", "+- (std. error)", "8-bit sRGB", "range", "status"}, rows);
+  for (const fit::ParameterState& state : result.parameters) {
+    if (!state.reason.empty()) text += "  " + state.name + ": " + state.reason + "\n";
+  }
   for (const std::string& note : result.notes) text += "  note: " + note + "\n";
   return text;
 }

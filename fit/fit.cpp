@@ -14,7 +14,10 @@
 #include "fit/explore.h"
 #include "fit/metallic.h"
 #include "fit/problem.h"
+#include "fit/reasons.h"
+#include "fit/settle.h"
 #include "fit/solve.h"
+#include "fit/uncertainty.h"
 
 namespace brdfit::fit {
 namespace {
@@ -192,17 +195,30 @@ class Fitter {
     result_.evaluations += near.evaluations + solution.evaluations;
   }
 
-  void look_at_evidence() {
-    const Solution& solution = published_.candidate.solution;
-    if (!published_.note.empty()) result_.notes.push_back(published_.note);
-    Identifiability identifiability = identify(parametrisation_, solution.x, on_all_.gram(solution.x));
-    if (published_.metallic_undecided) {
-      for (std::size_t k = 0; k < parametrisation_.size(); ++k) {
-        const std::string& name = parametrisation_.free[k].name;
-        if (name == "metallic" || name == "specular") identifiability.status[k] = Status::kUnidentifiable;
-      }
+  // Metallic 0 was kept where another value fits as well: that ties it to specular, whatever stands at x.
+  void mark_undecided(Settled& settled) const {
+    if (!published_.metallic_undecided) return;
+    for (std::size_t k = 0; k < parametrisation_.size(); ++k) {
+      const std::string& name = parametrisation_.free[k].name;
+      if (name != "metallic" && name != "specular") continue;
+      settled.identifiability.status[k] = Status::kUnidentifiable;
+      settled.reasons[k] = fmt::format("tied to {}: another combination fits as well",
+                                       name == "metallic" ? "specular" : "metallic");
     }
+  }
+
+  void look_at_evidence() {
+    if (!published_.note.empty()) result_.notes.push_back(published_.note);
+    Settled settled = settle_unidentifiable(on_all_, published_.candidate.solution, published_.candidate.box);
+    mark_undecided(settled);
+    result_.evaluations += settled.evaluations;
+    const Solution& solution = settled.solution;
+    const Identifiability& identifiability = settled.identifiability;
     result_.parameters = public_states(parametrisation_, solution.x, identifiability);
+    add_standard_errors(parametrisation_, solution.x,
+                        estimate_uncertainty(on_all_, solution.x, settled.box, identifiability),
+                        result_.parameters);
+    add_reasons(parametrisation_, solution.x, settled.reasons, result_.parameters);
     result_.correlated = identifiability.correlated;
     result_.material = parametrisation_.to_material(solution.x);
     result_.cost = solution.cost;

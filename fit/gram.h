@@ -38,11 +38,15 @@ struct GramJob {
   double clipped_width = 0.0;
   const double* clipped_share = nullptr;
   const double* clipped_target[3] = {};
+  // Robust residuals are weighted by the cost's second derivative, (1 + (r/d)^2)^(-3/2), in products of
+  // derivatives: how fast the gradient changes, which their own weight overstates.
+  bool curvature = false;
 };
 
 // Per channel, rows and columns 0..n-1: products of derivatives; row and column n: with the residual, where n
 // is the number of coefficients of the model. The upper triangle is filled, by rows. Robust residuals are
-// weighted by 1/sqrt(1 + (r/d)^2), so that the products with the residual are the gradient of the cost.
+// weighted by 1/sqrt(1 + (r/d)^2), so that the products with the residual are the gradient of the cost (with
+// `curvature` as well).
 struct Gram {
   double channel[3][kGramSide * kGramSide];
   double cost;

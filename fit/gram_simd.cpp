@@ -59,9 +59,13 @@ struct AnyLoss {
   int loss;
   double width;
   double clipped_width;
+  bool curvature;
 
   explicit HWY_INLINE AnyLoss(const GramJob& job)
-      : loss(job.loss), width(job.robust_width), clipped_width(job.clipped_width) {}
+      : loss(job.loss), width(job.robust_width), clipped_width(job.clipped_width), curvature(job.curvature) {}
+
+  // What products of derivatives are weighted by.
+  HWY_INLINE V of_products(V weight) const { return curvature ? weight * weight * weight : weight; }
 
   // The cost of a residual and the weight that its square has in it.
   static HWY_INLINE V robust_cost(V residual, double width, V& weight) {
@@ -86,9 +90,10 @@ struct AnyLoss {
     const V main_cost = robust_cost(r, width, weight);
     const V cost = multiply_add(share, robust_cost(u, clipped_width, clipped_weight), main_cost);
     const V clipped_slope = clipped.slope * inverse_cos_i;
-    const V clipped_factor = share * clipped_weight * clipped_slope;
-    const V slope_squared = weight * main.slope * main.slope + clipped_factor * clipped_slope;
-    return {kernel::at_least(slope_squared, V(1e-30)), weight * main.slope * r + clipped_factor * u, cost};
+    const V slope_squared = of_products(weight) * main.slope * main.slope +
+                            share * of_products(clipped_weight) * clipped_slope * clipped_slope;
+    return {kernel::at_least(slope_squared, V(1e-30)),
+            weight * main.slope * r + share * clipped_weight * clipped_slope * u, cost};
   }
 };
 
@@ -246,7 +251,8 @@ struct GramOf {
 
 template <template <class> class ModelRows, bool kMean>
 void gram_of(const GramJob& job, Gram& gram) {
-  if (job.loss == BRDFIT_LOSS_LOG_RATIO && job.robust_width > 0.0 && job.clipped_width > 0.0) {
+  if (!job.curvature && job.loss == BRDFIT_LOSS_LOG_RATIO && job.robust_width > 0.0 &&
+      job.clipped_width > 0.0) {
     return GramOf<double, ModelRows, RobustLogRatio, kMean>::run(job, gram);
   }
   GramOf<double, ModelRows, AnyLoss, kMean>::run(job, gram);

@@ -8,7 +8,6 @@
 namespace brdfit::fit {
 namespace {
 
-constexpr double kVisiblePart = 0.01;
 constexpr double kCorrelated = 0.95;
 
 Status bound_status(const FreeParameter& parameter, double x) {
@@ -37,14 +36,29 @@ void mark_unseen(const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd>& eigen,
   for (Eigen::Index k = singular.size() - 1; k >= 0; --k) {
     result.relative_singular_values.push_back(largest > 0.0 ? singular[k] / largest : 0.0);
   }
+  const Eigen::VectorXd weight =
+      (singular.array() > kSingularThreshold * largest)
+          .select(Eigen::VectorXd::Zero(singular.size()), Eigen::VectorXd::Ones(singular.size()));
+  const Eigen::MatrixXd unseen =
+      eigen.eigenvectors() * weight.asDiagonal() * eigen.eigenvectors().transpose();
+  result.unseen(inside, inside) = unseen;
   for (std::size_t row = 0; row < inside.size(); ++row) {
-    double part = 0.0;
-    for (Eigen::Index k = 0; k < singular.size(); ++k) {
-      if (singular[k] > kSingularThreshold * largest) continue;
-      part += std::pow(eigen.eigenvectors()(static_cast<Eigen::Index>(row), k), 2);
-    }
-    if (std::sqrt(part) > kVisiblePart) {
+    const auto at = static_cast<Eigen::Index>(row);
+    if (std::sqrt(std::max(unseen(at, at), 0.0)) > kVisiblePart) {
       result.status[static_cast<std::size_t>(inside[row])] = Status::kUnidentifiable;
+    }
+  }
+}
+
+// Numbers at bounds on which nothing depends.
+void mark_inert(const Parametrisation& parametrisation, std::span<const double> x,
+                const Eigen::MatrixXd& gram, double largest_square, Identifiability& result) {
+  for (std::size_t k = 0; k < parametrisation.size(); ++k) {
+    if (result.status[k] != Status::kAtLowerBound && result.status[k] != Status::kAtUpperBound) continue;
+    const auto at = static_cast<Eigen::Index>(k);
+    const double column_square = gram(at, at) * std::pow(parametrisation.scale(k, x[k]), 2);
+    if (column_square <= kSingularThreshold * kSingularThreshold * largest_square) {
+      result.status[k] = Status::kUnidentifiable;
     }
   }
 }
@@ -68,6 +82,14 @@ void list_correlated(const Parametrisation& parametrisation,
       result.correlated.push_back({name(a), name(b), correlation});
     }
   }
+}
+
+// Whether all channels of number k's product are 0.
+bool vanishes(const Parametrisation& parametrisation, std::span<const double> x, std::size_t k) {
+  for (std::size_t j = 0; j < parametrisation.size(); ++j) {
+    if (parametrisation.free[j].parameter == parametrisation.free[k].parameter && x[j] != 0.0) return false;
+  }
+  return true;
 }
 
 Status worse(Status a, Status b) {
@@ -107,17 +129,21 @@ std::string_view name_of(Status status) {
 }
 
 Identifiability identify(const Parametrisation& parametrisation, std::span<const double> x,
-                         const Eigen::MatrixXd& gram) {
+                         const Eigen::MatrixXd& gram, const std::vector<bool>& held) {
   Identifiability result;
   std::vector<Eigen::Index> inside;
+  const auto n = static_cast<Eigen::Index>(parametrisation.size());
+  result.unseen = Eigen::MatrixXd::Zero(n, n);
   for (std::size_t k = 0; k < parametrisation.size(); ++k) {
-    result.status.push_back(bound_status(parametrisation.free[k], x[k]));
+    const bool is_held = !held.empty() && held[k];
+    result.status.push_back(is_held ? Status::kFixed : bound_status(parametrisation.free[k], x[k]));
     if (result.status.back() == Status::kOk) inside.push_back(static_cast<Eigen::Index>(k));
   }
   if (inside.empty()) return result;
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(
       scaled_normal_matrix(parametrisation, x, gram, inside));
   mark_unseen(eigen, inside, result);
+  mark_inert(parametrisation, x, gram, eigen.eigenvalues().maxCoeff(), result);
   list_correlated(parametrisation, eigen, inside, result);
   return result;
 }
@@ -135,8 +161,12 @@ std::vector<ParameterState> public_states(const Parametrisation& parametrisation
       // A tint shares its products with its intensity; it is as unidentifiable as they are, and its own
       // bounds are those of a share, which the largest channel always meets.
       if (parameter.tint == info.name) {
-        const bool unseen = identifiability.status[k] == Status::kUnidentifiable || x[k] == 0.0;
-        state.components.push_back(unseen ? Status::kUnidentifiable : Status::kOk);
+        const bool is_dark = x[k] == 0.0;
+        const bool unseen = identifiability.status[k] == Status::kUnidentifiable ||
+                            (is_dark && vanishes(parametrisation, x, k));
+        state.components.push_back(unseen    ? Status::kUnidentifiable
+                                   : is_dark ? Status::kAtLowerBound
+                                             : Status::kOk);
       }
     }
     for (const Status status : state.components) state.status = worse(state.status, status);

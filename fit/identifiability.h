@@ -3,6 +3,7 @@
 #define BRDFIT_FIT_IDENTIFIABILITY_H_
 
 #include <Eigen/Core>
+#include <optional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -23,6 +24,9 @@ struct ParameterState {
   std::string name;
   Status status = Status::kOk;
   std::vector<Status> components;
+  // One per component, or a single one; none where the samples do not say or where the value is at a bound.
+  std::vector<std::optional<double>> standard_error = {};
+  std::string reason = {};  // why it is unidentifiable, in words; empty otherwise
 };
 
 // Two free numbers whose estimates move together.
@@ -39,16 +43,21 @@ struct Identifiability {
   // descending.
   std::vector<double> relative_singular_values;
   std::vector<CorrelatedPair> correlated;  // |correlation| above 0.95
+  // The projection onto unseen directions of scaled numbers; 0 in rows and columns of those at bounds.
+  Eigen::MatrixXd unseen;
 };
 
 // A direction counts as unseen when its singular value is below this share of the largest.
 inline constexpr double kSingularThreshold = 1e-4;
+// The least part of a scaled number in unseen directions at which it is unidentifiable.
+inline constexpr double kVisiblePart = 0.01;
 
 // gram: [J r]^T [J r] at x (fit/problem.h). Columns are scaled by Parametrisation::scale. A number at a bound
-// has that status and stays out of the Jacobian; one that takes a visible part (a tenth or more) in an unseen
-// direction is unidentifiable.
+// has that status and stays out of the Jacobian, unless its own column is as good as 0: then it is
+// unidentifiable. So is one that takes a visible part (a hundredth or more) in an unseen direction. Numbers
+// that are held (none where empty) are kFixed and stay out.
 Identifiability identify(const Parametrisation& parametrisation, std::span<const double> x,
-                         const Eigen::MatrixXd& gram);
+                         const Eigen::MatrixXd& gram, const std::vector<bool>& held = {});
 
 // Per public parameter of the model whose effect is on, in the order of its table.
 std::vector<ParameterState> public_states(const Parametrisation& parametrisation, std::span<const double> x,

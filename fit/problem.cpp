@@ -120,10 +120,11 @@ std::size_t chunk_count(const GramJob& job) {
   return (job.count + kChunk - 1) / kChunk;
 }
 
-GramJob chunk_of(const GramJob& job, std::size_t k) {
-  const std::size_t first = k * kChunk;
+// The k-th part of that size.
+GramJob chunk_of(const GramJob& job, std::size_t k, std::size_t size = kChunk) {
+  const std::size_t first = k * size;
   GramJob chunk = job;
-  chunk.count = std::min(kChunk, job.count - first);
+  chunk.count = std::min(size, job.count - first);
   for (const double** column :
        {&chunk.geometry.cos_i, &chunk.geometry.cos_o, &chunk.geometry.sin_h, &chunk.geometry.cos_h,
         &chunk.geometry.cos_d, &chunk.geometry.one_minus_cos_h, &chunk.geometry.one_minus_cos_d,
@@ -163,6 +164,31 @@ std::vector<Link> links(const Parametrisation& parametrisation, const Eigen::Mat
   }
   result.push_back({by_product.rows(), static_cast<Eigen::Index>(parametrisation.size()), 1.0});
   return result;
+}
+
+using ChannelLinks = std::array<std::vector<Link>, 3>;
+
+ChannelLinks channel_links(const Parametrisation& parametrisation, std::span<const double> x) {
+  const std::array<Coefficients, 3> channels =
+      differentiate(parametrisation.start, parametrisation.product(x));
+  ChannelLinks result;
+  for (std::size_t c = 0; c < 3; ++c) result[c] = links(parametrisation, channels[c].jacobian);
+  return result;
+}
+
+// Sums over coefficients as sums over free numbers.
+Eigen::MatrixXd chained(const Gram& sums, const ChannelLinks& chain, std::size_t parameters) {
+  const auto side = static_cast<Eigen::Index>(parameters) + 1;
+  Eigen::MatrixXd total = Eigen::MatrixXd::Zero(side, side);
+  for (std::size_t c = 0; c < 3; ++c) {
+    for (const Link& a : chain[c]) {
+      for (const Link& b : chain[c]) {
+        const auto [row, column] = std::minmax(a.coefficient, b.coefficient);
+        total(a.number, b.number) += a.slope * b.slope * sums.channel[c][row * kGramSide + column];
+      }
+    }
+  }
+  return total;
 }
 
 }  // namespace
@@ -248,28 +274,42 @@ double Problem::cost(std::span<const double> x) const {
   return std::accumulate(costs.begin(), costs.end(), 0.0);
 }
 
-Eigen::MatrixXd Problem::gram(std::span<const double> x, double* cost) const {
-  const auto n = static_cast<Eigen::Index>(parametrisation_.size());
-  const GramJob job = job_at(x);
+Gram Problem::sum_of(const GramJob& job) const {
   std::vector<Gram> chunks(chunk_count(job));
   tbb::parallel_for(std::size_t{0}, chunks.size(),
                     [&](std::size_t k) { gram_function_(chunk_of(job, k), chunks[k]); });
-  Gram& sums = chunks.front();
-  for (std::size_t k = 1; k < chunks.size(); ++k) add(sums, chunks[k]);
+  for (std::size_t k = 1; k < chunks.size(); ++k) add(chunks.front(), chunks[k]);
+  return chunks.front();
+}
+
+Eigen::MatrixXd Problem::gram(std::span<const double> x, double* cost) const {
+  const Gram sums = sum_of(job_at(x));
   if (cost != nullptr) *cost = sums.cost;
-  const std::array<Coefficients, 3> channels =
-      differentiate(parametrisation_.start, parametrisation_.product(x));
-  Eigen::MatrixXd total = Eigen::MatrixXd::Zero(n + 1, n + 1);
-  for (std::size_t c = 0; c < 3; ++c) {
-    const std::vector<Link> chain = links(parametrisation_, channels[c].jacobian);
-    for (const Link& a : chain) {
-      for (const Link& b : chain) {
-        const auto [row, column] = std::minmax(a.coefficient, b.coefficient);
-        total(a.number, b.number) += a.slope * b.slope * sums.channel[c][row * kGramSide + column];
-      }
-    }
-  }
-  return total;
+  return chained(sums, channel_links(parametrisation_, x), parametrisation_.size());
+}
+
+Eigen::MatrixXd Problem::curvature(std::span<const double> x) const {
+  GramJob job = job_at(x);
+  job.curvature = true;
+  return chained(sum_of(job), channel_links(parametrisation_, x), parametrisation_.size());
+}
+
+std::vector<Eigen::MatrixXd> Problem::curvature_by_group(std::span<const double> x,
+                                                         std::size_t most_groups) const {
+  // A multiple of every vector's length.
+  constexpr std::size_t kLeast = 8;
+  GramJob job = job_at(x);
+  job.curvature = true;
+  job.count = (samples_.size() + kLeast - 1) / kLeast * kLeast;
+  const std::size_t size = (job.count / kLeast + most_groups - 1) / most_groups * kLeast;
+  const ChannelLinks chain = channel_links(parametrisation_, x);
+  std::vector<Eigen::MatrixXd> groups((job.count + size - 1) / size);
+  tbb::parallel_for(std::size_t{0}, groups.size(), [&](std::size_t k) {
+    Gram sums;
+    gram_function_(chunk_of(job, k, size), sums);
+    groups[k] = chained(sums, chain, parametrisation_.size());
+  });
+  return groups;
 }
 
 }  // namespace brdfit::fit

@@ -48,8 +48,17 @@ class Problem {
   // there.
   Eigen::MatrixXd gram(std::span<const double> x, double* cost = nullptr) const;
 
+  // The same with GramJob::curvature: in place of J^T J how fast the gradient changes, as far as the
+  // residuals are linear.
+  Eigen::MatrixXd curvature(std::span<const double> x) const;
+
+  // Its parts, which sum to it, from at most most_groups groups of consecutive samples (of a table: of
+  // neighbours), at least eight in each.
+  std::vector<Eigen::MatrixXd> curvature_by_group(std::span<const double> x, std::size_t most_groups) const;
+
  private:
   GramJob job_at(std::span<const double> x) const;
+  Gram sum_of(const GramJob& job) const;
 
   const Parametrisation& parametrisation_;
   const SampleSet& samples_;

@@ -145,6 +145,11 @@ TEST_F(Fit, GivesTheSameBitsOnAnyNumberOfThreads) {
   EXPECT_EQ(one.iterations, two.iterations);
   EXPECT_EQ(one.evaluations, two.evaluations);
   EXPECT_EQ(one.evaluation.table.log_ratio_pct, two.evaluation.table.log_ratio_pct);
+  ASSERT_EQ(one.parameters.size(), two.parameters.size());
+  for (std::size_t k = 0; k < one.parameters.size(); ++k) {
+    EXPECT_EQ(one.parameters[k].standard_error, two.parameters[k].standard_error) << one.parameters[k].name;
+    EXPECT_EQ(one.parameters[k].reason, two.parameters[k].reason) << one.parameters[k].name;
+  }
 }
 
 TEST_F(Fit, DependsOnItsSeed) {

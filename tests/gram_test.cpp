@@ -154,8 +154,10 @@ double expected_cost(const Material& material, const Observed& observed, Loss lo
   return cost;
 }
 
-// [J r]^T [J r] by the product form, through Jets, without the corner r^T r; robust residuals weighted.
-Eigen::MatrixXd expected_gram(const SampleSet& s, const std::vector<std::array<Sloped, 3>>& rows, Loss loss) {
+// [J r]^T [J r] by the product form, through Jets, without the corner r^T r; robust residuals weighted, in
+// J^T J by the second derivative of the cost where curvature is asked for.
+Eigen::MatrixXd expected_gram(const SampleSet& s, const std::vector<std::array<Sloped, 3>>& rows, Loss loss,
+                              bool curvature) {
   const LossShape shape = shape_of(loss);
   const Eigen::Index n = rows[0][0].slope.size();
   Eigen::MatrixXd gram = Eigen::MatrixXd::Zero(n + 1, n + 1);
@@ -167,9 +169,11 @@ Eigen::MatrixXd expected_gram(const SampleSet& s, const std::vector<std::array<S
         const Curve curve = expected_curve(curve_of, row.value, cos_i);
         const double measured = s.f(static_cast<int>(c))[k];
         const double r = curve.value - expected_curve(curve_of, measured * cos_i, cos_i).value;
-        const double weight = s.weight()[k] * share * robust_weight(r, width);
-        gram.topLeftCorner(n, n) += weight * curve.slope * curve.slope * row.slope * row.slope.transpose();
-        gram.col(n).head(n) += weight * curve.slope * r * row.slope;
+        const double robust = robust_weight(r, width);
+        const double weight = s.weight()[k] * share;
+        gram.topLeftCorner(n, n) += weight * (curvature ? std::pow(robust, 3) : robust) * curve.slope *
+                                    curve.slope * row.slope * row.slope.transpose();
+        gram.col(n).head(n) += weight * robust * curve.slope * r * row.slope;
       };
       add(loss, shape.robust_width, 1.0);
       add(Loss::kSlice, shape.clipped_width, expected_share(s, k, loss));
@@ -225,8 +229,11 @@ void expect_sums(const Material& material, Orders orders, Random& random) {
   for (const Loss loss : all_losses()) {
     const Targets targets = make_targets(samples, loss);
     const GramJob job = job_of(material, samples, targets, loss, orders);
+    GramJob curved = job;
+    curved.curvature = true;
     const double cost = expected_cost(material, observed, loss, orders);
-    const Eigen::MatrixXd expected = expected_gram(samples, rows, loss);
+    const Eigen::MatrixXd expected = expected_gram(samples, rows, loss, false);
+    const Eigen::MatrixXd expected_curvature = expected_gram(samples, rows, loss, true);
     for (const simd::Isa isa : simd::available_isas()) {
       SCOPED_TRACE(testing::Message()
                    << name_of(material.model()) << ", effects " << material.effects().bits() << ", "
@@ -236,6 +243,8 @@ void expect_sums(const Material& material, Orders orders, Random& random) {
       ASSERT_NEAR(gram.cost, cost, 1e-11 * cost);
       ASSERT_NEAR(cost_function(isa)(job), cost, 1e-11 * cost);
       expect_same_gram(chained_gram(material, gram), expected, cost);
+      gram_function(isa)(curved, gram);
+      expect_same_gram(chained_gram(material, gram), expected_curvature, cost);
       if (testing::Test::HasFatalFailure()) return;
     }
   }
