@@ -11,7 +11,7 @@ namespace brdfit::bake {
 namespace {
 
 // Values that start on a bound are moved inside by this share of the range: at the bound nothing moves.
-constexpr double kInside = 0.02;
+constexpr double kInside = 0.1;
 
 // A class's loss, and its derivatives by what the lobes are worth under the lights and by the penalty.
 struct ClassLoss {

@@ -1,6 +1,5 @@
 #include "bake/ridge.h"
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -26,7 +25,7 @@ RidgeChoice choose_ridge(const LobeSet& lobes, std::span<const Vec3> directions,
     double error = 0.0;
     double without = 0.0;
     for (std::size_t i = 0; i < problem.texels; ++i) {
-      error += std::min(result.error_with[i], result.error_without[i]);
+      error += result.error_with[i];
       without += result.error_without[i];
     }
     if (error < best.error) best = {system.ridge(), error, without};

@@ -19,8 +19,8 @@ struct RidgeChoice {
 };
 
 // The ridge of a logarithmic grid from 1e-5 to 1e4 (where lobes are as good as absent) whose leave-one-out
-// error over the problem's texels, those that lobes do not help left without, is least. problem: a sample of
-// an asset's texels.
+// error over the problem's texels is least. All texels count with their lobes: to count those that lobes do
+// not help as if they had none flatters small ridges. problem: a sample of an asset's texels.
 RidgeChoice choose_ridge(const LobeSet& lobes, std::span<const Vec3> directions, const TexelProblem& problem);
 
 }  // namespace brdfit::bake
