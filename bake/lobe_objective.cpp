@@ -13,13 +13,6 @@ namespace {
 // Values that start on a bound are moved inside by this share of the range: at the bound nothing moves.
 constexpr double kInside = 0.1;
 
-// A class's loss, and its derivatives by what the lobes are worth under the lights and by the penalty.
-struct ClassLoss {
-  double loss = 0.0;
-  double by_penalty = 0.0;
-  Eigen::MatrixXd by_basis;
-};
-
 ClassLoss class_loss(const ResidualClass& residuals, const Eigen::MatrixXd& basis, double penalty,
                      bool with_gradient) {
   const Eigen::MatrixXd& f = residuals.factor;
@@ -138,11 +131,10 @@ double LobeObjective::ridge(std::span<const double> parameters) const {
   return ridge_.value(parameters.back());
 }
 
-double LobeObjective::of_class(const ResidualClass& residuals, const LobeSet& lobes,
-                               std::span<const double> parameters, double* gradient) const {
-  const Eigen::MatrixXd basis = lobe_values(lobes, residuals.directions);
-  const ClassLoss result = class_loss(residuals, basis, ridge(parameters) * unit_, gradient != nullptr);
-  if (gradient == nullptr) return result.loss;
+// Adds a class's share of the gradient.
+void LobeObjective::add_class(const ResidualClass& residuals, const LobeSet& lobes,
+                              std::span<const double> parameters, const ClassLoss& result,
+                              double* gradient) const {
   for (std::size_t k = 0; k < lobes.size(); ++k) {
     const double* p = parameters.data() + 5 * k;
     const Vec3& axis = lobes[k].axis;
@@ -168,18 +160,29 @@ double LobeObjective::of_class(const ResidualClass& residuals, const LobeSet& lo
     g[4] += by_width * width_.slope(p[4]);
   }
   gradient[5 * lobes_] += result.by_penalty * unit_ * ridge_.slope(parameters.back());
-  return result.loss;
+}
+
+double LobeObjective::evaluate(const LobeSet& lobes, double ridge) const {
+  double loss = 0.0;
+  for (const ResidualClass& residuals : classes_) {
+    loss += class_loss(residuals, lobe_values(lobes, residuals.directions), ridge * unit_, false).loss;
+  }
+  return energy_ > 0.0 ? loss / energy_ : 0.0;
 }
 
 double LobeObjective::evaluate(std::span<const double> parameters, double* gradient) const {
   const LobeSet set = lobes(parameters);
-  if (gradient != nullptr) std::fill(gradient, gradient + this->parameters(), 0.0);
+  if (gradient == nullptr) return evaluate(set, ridge(parameters));
+  std::fill(gradient, gradient + this->parameters(), 0.0);
   double loss = 0.0;
-  for (const ResidualClass& residuals : classes_) loss += of_class(residuals, set, parameters, gradient);
-  const double inverse = energy_ > 0.0 ? 1.0 / energy_ : 0.0;
-  if (gradient != nullptr) {
-    for (int k = 0; k < this->parameters(); ++k) gradient[k] *= inverse;
+  for (const ResidualClass& residuals : classes_) {
+    const ClassLoss result =
+        class_loss(residuals, lobe_values(set, residuals.directions), ridge(parameters) * unit_, true);
+    loss += result.loss;
+    add_class(residuals, set, parameters, result, gradient);
   }
+  const double inverse = energy_ > 0.0 ? 1.0 / energy_ : 0.0;
+  for (int k = 0; k < this->parameters(); ++k) gradient[k] *= inverse;
   return loss * inverse;
 }
 

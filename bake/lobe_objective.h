@@ -22,6 +22,13 @@ struct LobeBounds {
 // What a set of lights can tell apart: no lobe falls to less than a tenth, nor ends, before the next light.
 LobeBounds bounds_of(std::span<const Vec3> directions);
 
+// A class's loss, and its derivatives by what the lobes are worth under the lights and by the penalty.
+struct ClassLoss {
+  double loss = 0.0;
+  double by_penalty = 0.0;
+  Eigen::MatrixXd by_basis;  // lights x lobes
+};
+
 // Sum over classes j and lights l of [(I - H_j) C_j (I - H_j)]_ll / (1 - h_jl)^2, with H_j the hat matrix of
 // the class's modulation and h_j its diagonal, over the sum of the covariances' traces: about the share of
 // the squared error that stays. Allen 1974 for the form.
@@ -36,6 +43,8 @@ class LobeObjective {
   std::vector<double> pack(const LobeSet& lobes, double ridge) const;
   LobeSet lobes(std::span<const double> parameters) const;
   double ridge(std::span<const double> parameters) const;
+  // Of lobes as they are, within bounds or not.
+  double evaluate(const LobeSet& lobes, double ridge) const;
   // gradient: as many numbers as parameters, or null.
   double evaluate(std::span<const double> parameters, double* gradient) const;
 
@@ -48,8 +57,8 @@ class LobeObjective {
     double inverse(double value) const;
   };
 
-  double of_class(const ResidualClass& residuals, const LobeSet& lobes, std::span<const double> parameters,
-                  double* gradient) const;
+  void add_class(const ResidualClass& residuals, const LobeSet& lobes, std::span<const double> parameters,
+                 const ClassLoss& result, double* gradient) const;
 
   std::span<const ResidualClass> classes_;
   int lobes_;

@@ -93,7 +93,7 @@ LobeSearchResult best_uniform(std::span<const ResidualClass> classes, std::span<
   for (const double overlap : kOverlaps) {
     const LobeSet lobes = uniform_lobes(count, cap, overlap);
     for (const double ridge : kRidges) {
-      const double value = objective.evaluate(objective.pack(lobes, ridge), nullptr);
+      const double value = objective.evaluate(lobes, ridge);
       ++best.evaluations;
       if (value >= best.objective) continue;
       best.objective = best.start_objective = value;
