@@ -1,0 +1,240 @@
+#include "bake/solve.h"
+
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <stdexcept>
+#include <utility>
+
+#include "bake/solve_job.h"
+
+namespace brdfit::simd {
+
+BRDFIT_DECLARE_SIMD(void solve_texels(const bake::SolveJob&))
+
+}  // namespace brdfit::simd
+
+namespace brdfit::bake {
+namespace {
+
+// Eigenvalues below this share of the largest count as 0.
+constexpr double kSingular = 1e-10;
+// Texels that a task solves.
+constexpr std::size_t kGrain = 512;
+
+SolveFunction solve_function(simd::Isa isa) {
+  using namespace simd;  // where the macro finds the instruction sets
+  return BRDFIT_PICK(isa, solve_texels);
+}
+
+void check(const LobeSystem& system, const TexelProblem& problem) {
+  const std::size_t size = problem.lights * problem.texels;
+  const bool fits = system.directions().size() == problem.lights && problem.residual.size() == size &&
+                    problem.modulation.size() == size &&
+                    (problem.weight.empty() || problem.weight.size() == size) &&
+                    (problem.directions.empty() || problem.directions.size() == 3 * size);
+  if (!fits) throw std::invalid_argument("solve: the problem's sizes disagree");
+}
+
+void solve_directional(const LobeSystem& system, const TexelProblem& problem, const SolveOptions& options,
+                       SolveResult& result) {
+  const LobeSystem::Packed& packed = system.packed();
+  SolveJob job;
+  job.width = packed.width;
+  job.lobes = static_cast<int>(system.lobes().size());
+  job.lights = problem.lights;
+  job.stride = problem.texels;
+  job.residual = problem.residual.data();
+  job.modulation = problem.modulation.data();
+  job.weight = problem.weight.empty() ? nullptr : problem.weight.data();
+  job.basis = packed.basis.data();
+  job.products = packed.products.data();
+  job.penalty = packed.penalty.data();
+  job.mixes = packed.mixes.data();
+  job.leave_one_out = options.leave_one_out;
+  job.select = options.select;
+  job.amplitudes = result.amplitudes.data();
+  job.confidence = result.confidence.data();
+  job.error_with = result.error_with.data();
+  job.error_without = result.error_without.data();
+  const SolveFunction run = solve_function(options.isa);
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, problem.texels, kGrain), [&](const auto& range) {
+    std::vector<float> scratch(3 * kMostTexelsAtOnce * (problem.lights + kLightGroup));
+    SolveJob part = job;
+    part.first = range.begin();
+    part.count = range.size();
+    part.scratch = scratch.data();
+    run(part);
+  });
+}
+
+// One texel under lights whose directions are its own.
+void solve_near(const LobeSystem& system, const TexelProblem& problem, const SolveOptions& options,
+                std::size_t texel, SolveResult& result) {
+  const auto lights = static_cast<Eigen::Index>(problem.lights);
+  std::vector<Vec3> directions(problem.lights);
+  Eigen::VectorXd residual(lights);
+  Eigen::VectorXd modulation(lights);
+  Eigen::VectorXd weight(lights);
+  for (std::size_t l = 0; l < problem.lights; ++l) {
+    const auto row = static_cast<Eigen::Index>(l);
+    directions[l] = problem.direction(l, texel, system.directions()[l]);
+    residual[row] = problem.residual[problem.at(l, texel)];
+    modulation[row] = problem.modulation[problem.at(l, texel)];
+    weight[row] = problem.weight_of(l, texel);
+  }
+  const TexelSolution solution =
+      solve_texel(lobe_values(system.lobes(), directions), residual, modulation, weight, system.penalty());
+  const Eigen::VectorXd& errors = options.leave_one_out ? solution.left_out : solution.left;
+  const double with = (weight.array() * errors.array().square()).sum();
+  const double without = (weight.array() * residual.array().square()).sum();
+  const bool better = with < without;
+  result.error_with[texel] = static_cast<float>(with);
+  result.error_without[texel] = static_cast<float>(without);
+  result.confidence[texel] = better ? static_cast<float>(1.0 - with / without) : 0.0F;
+  if (options.select && !better) return;
+  for (Eigen::Index k = 0; k < solution.amplitudes.size(); ++k) {
+    result.amplitudes[static_cast<std::size_t>(k) * problem.texels + texel] =
+        static_cast<float>(solution.amplitudes[k]);
+  }
+}
+
+}  // namespace
+
+LobeSystem::LobeSystem(LobeSet lobes, std::span<const Vec3> directions,
+                       std::span<const double> squared_modulation, double ridge)
+    : lobes_(std::move(lobes)),
+      directions_(directions.begin(), directions.end()),
+      basis_(lobe_values(lobes_, directions)),
+      ridge_(ridge) {
+  if (lobes_.empty() || lobes_.size() > static_cast<std::size_t>(kMaxLobes)) {
+    throw std::invalid_argument("LobeSystem: 1 to 16 lobes");
+  }
+  if (squared_modulation.size() != directions.size()) {
+    throw std::invalid_argument("LobeSystem: one modulation per light");
+  }
+  if (!(ridge >= 0.0) || !std::isfinite(ridge)) {
+    throw std::invalid_argument("LobeSystem: the ridge must be finite and not negative");
+  }
+  const Eigen::Map<const Eigen::VectorXd> weights(squared_modulation.data(),
+                                                  static_cast<Eigen::Index>(squared_modulation.size()));
+  Eigen::MatrixXd gram = basis_.transpose() * weights.asDiagonal() * basis_;
+  if (!gram.allFinite()) throw std::invalid_argument("LobeSystem: a modulation is not finite");
+  const double scale = gram.diagonal().mean();
+  if (!(scale > 0.0)) gram.setIdentity();  // no light reaches a lobe: any unit will do
+  penalty_ = ridge * (scale > 0.0 ? scale : 1.0);
+  pack(gram);
+}
+
+void LobeSystem::pack(const Eigen::MatrixXd& gram) {
+  const Eigen::Index count = gram.rows();
+  packed_.width = static_cast<int>((count + 3) / 4 * 4);
+  const auto width = static_cast<std::size_t>(packed_.width);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(gram);
+  const double largest = eigen.eigenvalues().maxCoeff();
+  const double smallest = eigen.eigenvalues().minCoeff();
+  condition_ = smallest > kSingular * largest ? largest / smallest : std::numeric_limits<double>::infinity();
+
+  // Unknown k is the mix of lobes along eigenvector k, of the size at which the average texel's matrix,
+  // penalty and all, is the identity. Unknowns that nothing determines stay 0, as does the padding.
+  Eigen::MatrixXd mixes = Eigen::MatrixXd::Zero(count, packed_.width);
+  Eigen::MatrixXd penalty = Eigen::MatrixXd::Identity(packed_.width, packed_.width);
+  for (Eigen::Index k = 0; k < count; ++k) {
+    const double size = eigen.eigenvalues()[k] + penalty_;
+    if (size <= kSingular * (largest + penalty_)) continue;
+    mixes.col(k) = eigen.eigenvectors().col(k) / std::sqrt(size);
+    penalty(k, k) = penalty_ / size;
+  }
+  const Eigen::MatrixXd basis = basis_ * mixes;
+
+  const auto lights = static_cast<std::size_t>(basis.rows());
+  const std::size_t padded = (lights + kLightGroup - 1) / kLightGroup * kLightGroup;
+  const std::size_t products = width * (width + 1) / 2;
+  packed_.basis.assign(padded * width, 0.0F);
+  packed_.products.assign(padded * products, 0.0F);
+  for (std::size_t l = 0; l < lights; ++l) {
+    const Eigen::RowVectorXd row = basis.row(static_cast<Eigen::Index>(l));
+    std::size_t entry = l * products;
+    for (Eigen::Index i = 0; i < row.size(); ++i) {
+      packed_.basis[l * width + static_cast<std::size_t>(i)] = static_cast<float>(row[i]);
+      for (Eigen::Index j = 0; j <= i; ++j) packed_.products[entry++] = static_cast<float>(row[i] * row[j]);
+    }
+  }
+  for (Eigen::Index i = 0; i < penalty.rows(); ++i) {
+    for (Eigen::Index j = 0; j <= i; ++j) packed_.penalty.push_back(static_cast<float>(penalty(i, j)));
+  }
+  for (Eigen::Index k = 0; k < count; ++k) {
+    for (Eigen::Index i = 0; i < mixes.cols(); ++i) packed_.mixes.push_back(static_cast<float>(mixes(k, i)));
+  }
+}
+
+SolveResult solve(const LobeSystem& system, const TexelProblem& problem, const SolveOptions& options) {
+  check(system, problem);
+  SolveResult result;
+  result.amplitudes.assign(system.lobes().size() * problem.texels, 0.0F);
+  result.confidence.assign(problem.texels, 0.0F);
+  result.error_with.assign(problem.texels, 0.0F);
+  result.error_without.assign(problem.texels, 0.0F);
+  if (problem.directions.empty()) {
+    solve_directional(system, problem, options, result);
+  } else {
+    tbb::parallel_for(std::size_t{0}, problem.texels,
+                      [&](std::size_t texel) { solve_near(system, problem, options, texel, result); });
+  }
+  return result;
+}
+
+TexelSolution solve_texel(const Eigen::MatrixXd& basis, const Eigen::VectorXd& residual,
+                          const Eigen::VectorXd& modulation, const Eigen::VectorXd& weight, double penalty) {
+  const Eigen::MatrixXd modulated = modulation.asDiagonal() * basis;
+  const Eigen::MatrixXd weighted = weight.asDiagonal() * modulated;
+  Eigen::MatrixXd gram = modulated.transpose() * weighted;
+  gram.diagonal().array() += penalty;
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(gram);
+  const double least = kSingular * std::max(eigen.eigenvalues().maxCoeff(), 0.0);
+  const Eigen::VectorXd inverse =
+      eigen.eigenvalues().unaryExpr([least](double v) { return v > least ? 1.0 / v : 0.0; });
+  const Eigen::MatrixXd solver =
+      eigen.eigenvectors() * inverse.asDiagonal() * eigen.eigenvectors().transpose() * weighted.transpose();
+  TexelSolution solution;
+  solution.amplitudes = solver * residual;
+  solution.hat = (modulated.array() * solver.transpose().array()).rowwise().sum();
+  solution.left = residual - modulated * solution.amplitudes;
+  solution.left_out = residual;
+  for (Eigen::Index l = 0; l < residual.size(); ++l) {
+    const double freedom = 1.0 - solution.hat[l];
+    if (freedom > kLeastFreedom) solution.left_out[l] = solution.left[l] / freedom;
+  }
+  return solution;
+}
+
+std::vector<float> lobe_sums(const LobeSet& lobes, std::span<const Vec3> directions,
+                             std::span<const float> near_directions, std::span<const float> amplitudes,
+                             std::size_t texels) {
+  const std::size_t lights = directions.size();
+  if (amplitudes.size() != lobes.size() * texels ||
+      (!near_directions.empty() && near_directions.size() != 3 * lights * texels)) {
+    throw std::invalid_argument("lobe_sums: sizes disagree");
+  }
+  std::vector<float> sums(lights * texels, 0.0F);
+  for (std::size_t l = 0; l < lights; ++l) {
+    for (std::size_t k = 0; k < lobes.size(); ++k) {
+      const double common = eval(lobes[k], directions[l]);
+      for (std::size_t i = 0; i < texels; ++i) {
+        double value = common;
+        if (!near_directions.empty()) {
+          const float* d = near_directions.data() + l * 3 * texels + i;
+          value = eval(lobes[k], {d[0], d[texels], d[2 * texels]});
+        }
+        sums[l * texels + i] += static_cast<float>(value * amplitudes[k * texels + i]);
+      }
+    }
+  }
+  return sums;
+}
+
+}  // namespace brdfit::bake

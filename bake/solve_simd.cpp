@@ -1,0 +1,351 @@
+// Least squares of many texels at once, a texel per lane. Compiled once for every instruction set.
+//
+// Texels share the lobes' products, so that a texel's Gram matrix is a product of these with its squared
+// modulations: the work is that of small matrix products, in registers. Sums are single precision; unknowns
+// are mixes of lobes that are orthonormal on average, and one step of refinement on the residual takes the
+// solution to where single precision of the residual itself ends.
+#include "bake/solve_job.h"
+#include "brdf/simd/lanes.h"
+
+namespace brdfit::simd::BRDFIT_SIMD_ISA {
+namespace {
+
+using bake::kLightGroup;
+using bake::SolveJob;
+using V = Lanes<float>;
+
+constexpr int kWide = 2;  // vectors of texels that share each broadcast value
+constexpr std::size_t kStep = kWide * V::size;
+constexpr int kChunk = V::size >= 16 ? 12 : 6;  // sums held in registers at once
+// Keeps pivots of singular matrices positive. Refinement takes its effect out of regular ones.
+constexpr double kJitter = 4e-6;
+constexpr double kLeastPivot = 1e-6;
+constexpr double kTiny = 1e-30;
+
+struct Wide {
+  V part[kWide];
+};
+
+HWY_INLINE V broadcast(float x) {
+  return V::of(hn::Set(V::Tag(), x));
+}
+
+template <int P>
+class TexelSolver {
+ public:
+  static constexpr int n = P * (P + 1) / 2;
+
+  explicit TexelSolver(const SolveJob& job)
+      : job_(job),
+        padded_((job.lights + kLightGroup - 1) / kLightGroup * kLightGroup),
+        residual_(job.scratch),
+        modulation_(residual_ + padded_ * kStep),
+        left_(modulation_ + padded_ * kStep) {
+    static_assert(kStep <= bake::kMostTexelsAtOnce);
+    for (std::size_t at = 0; at < 3 * padded_ * kStep; ++at) residual_[at] = 0.0F;
+  }
+
+  HWY_FLATTEN void run() {
+    for (std::size_t at = 0; at < job_.count; at += kStep) {
+      const std::size_t length = job_.count - at < kStep ? job_.count - at : kStep;
+      load(job_.first + at, length);
+      sum_products<0>();
+      invert();
+      solve();
+      errors();
+      store(job_.first + at, length);
+    }
+  }
+
+ private:
+  static constexpr int entry(int i, int j) { return i * (i + 1) / 2 + j; }
+
+  // Residual and modulation, both times the root of the weight.
+  HWY_INLINE void load(std::size_t first, std::size_t length) {
+    for (std::size_t l = 0; l < job_.lights; ++l) {
+      const std::size_t from = l * job_.stride + first;
+      if (length == kStep) {
+        for (std::size_t w = 0; w < kStep; w += V::size) {
+          const V root = job_.weight == nullptr ? V(1.0) : sqrt(V::load(job_.weight + from + w));
+          (root * V::load(job_.residual + from + w)).store(&residual_[l * kStep + w]);
+          (root * V::load(job_.modulation + from + w)).store(&modulation_[l * kStep + w]);
+        }
+      } else {
+        load_some(l, from, length);
+      }
+    }
+  }
+
+  HWY_NOINLINE void load_some(std::size_t l, std::size_t from, std::size_t length) {
+    alignas(64) float weight[kStep];
+    for (std::size_t k = 0; k < kStep; ++k) {
+      weight[k] = k >= length ? 0.0F : job_.weight == nullptr ? 1.0F : job_.weight[from + k];
+    }
+    for (std::size_t w = 0; w < kStep; w += V::size) sqrt(V::load(weight + w)).store(weight + w);
+    for (std::size_t k = 0; k < kStep; ++k) {
+      residual_[l * kStep + k] = k < length ? weight[k] * job_.residual[from + k] : 0.0F;
+      modulation_[l * kStep + k] = k < length ? weight[k] * job_.modulation[from + k] : 0.0F;
+    }
+  }
+
+  // Sums over lights of kCount columns of coefficients times what `value` gives.
+  template <int kCount, class Value>
+  HWY_INLINE void sum_columns(const float* columns, std::size_t stride, const Value& value, Wide* to) {
+    V sums[kCount][kWide];
+    for (int c = 0; c < kCount; ++c) {
+      for (int w = 0; w < kWide; ++w) sums[c][w] = V(0.0);
+    }
+    for (std::size_t l = 0; l < job_.lights; ++l) {
+      V x[kWide];
+      for (int w = 0; w < kWide; ++w) x[w] = value(l * kStep + static_cast<std::size_t>(w) * V::size);
+      const float* row = columns + l * stride;
+#pragma GCC unroll 16
+      for (int c = 0; c < kCount; ++c) {
+        const V b = broadcast(row[c]);
+        for (int w = 0; w < kWide; ++w) sums[c][w] = multiply_add(b, x[w], sums[c][w]);
+      }
+    }
+    for (int c = 0; c < kCount; ++c) {
+      for (int w = 0; w < kWide; ++w) to[c].part[w] = sums[c][w];
+    }
+  }
+
+  template <int kFirst>
+  HWY_INLINE void sum_products() {
+    if constexpr (kFirst < n) {
+      constexpr int count = n - kFirst < kChunk ? n - kFirst : kChunk;
+      sum_columns<count>(
+          job_.products + kFirst, n,
+          [this](std::size_t at) {
+            const V m = V::load(&modulation_[at]);
+            return m * m;
+          },
+          gram_ + kFirst);
+      sum_products<kFirst + count>();
+    }
+  }
+
+  template <int kFirst>
+  HWY_INLINE void sum_right_sides(const float* values) {
+    if constexpr (kFirst < P) {
+      constexpr int count = P - kFirst < kChunk ? P - kFirst : kChunk;
+      sum_columns<count>(
+          job_.basis + kFirst, P,
+          [this, values](std::size_t at) { return V::load(&modulation_[at]) * V::load(values + at); },
+          right_ + kFirst);
+      sum_right_sides<kFirst + count>(values);
+    }
+  }
+
+  // gram_ becomes the inverse of itself with the penalty.
+  HWY_INLINE void invert() {
+    for (int w = 0; w < kWide; ++w) {
+      V lower[n];
+      V inverse_diagonal[P];
+      for (int j = 0; j < P; ++j) {
+        const V whole = gram_[entry(j, j)].part[w] + broadcast(job_.penalty[entry(j, j)]);
+        V pivot = multiply_add(whole, V(kJitter), whole) + V(kTiny);
+        for (int k = 0; k < j; ++k) pivot = pivot - lower[entry(j, k)] * lower[entry(j, k)];
+        const V least = multiply_add(whole, V(kLeastPivot), V(kTiny));
+        inverse_diagonal[j] = V(1.0) / sqrt(select(pivot > least, pivot, least));
+        for (int i = j + 1; i < P; ++i) {
+          V value = gram_[entry(i, j)].part[w] + broadcast(job_.penalty[entry(i, j)]);
+          for (int k = 0; k < j; ++k) value = value - lower[entry(i, k)] * lower[entry(j, k)];
+          lower[entry(i, j)] = value * inverse_diagonal[j];
+        }
+      }
+      for (int j = 0; j < P; ++j) {  // the triangle's inverse, in place of the triangle
+        lower[entry(j, j)] = inverse_diagonal[j];
+        for (int i = j + 1; i < P; ++i) {
+          V value(0.0);
+          for (int k = j; k < i; ++k) value = multiply_add(lower[entry(i, k)], lower[entry(k, j)], value);
+          lower[entry(i, j)] = V(0.0) - value * inverse_diagonal[i];
+        }
+      }
+      for (int i = 0; i < P; ++i) {
+        for (int j = 0; j <= i; ++j) {
+          V value(0.0);
+          for (int k = i; k < P; ++k) value = multiply_add(lower[entry(k, i)], lower[entry(k, j)], value);
+          gram_[entry(i, j)].part[w] = value;
+        }
+      }
+    }
+  }
+
+  // unknowns_ += inverse times the right sides.
+  HWY_INLINE void add_solution() {
+    for (int w = 0; w < kWide; ++w) {
+      for (int i = 0; i < P; ++i) {
+        V value = unknowns_[i].part[w];
+        for (int j = 0; j < P; ++j) {
+          const V a = gram_[i >= j ? entry(i, j) : entry(j, i)].part[w];
+          value = multiply_add(a, right_[j].part[w], value);
+        }
+        unknowns_[i].part[w] = value;
+      }
+    }
+  }
+
+  HWY_INLINE void subtract_penalty() {
+    for (int i = 0; i < P; ++i) {
+      for (int j = 0; j < P; ++j) {
+        const V a = broadcast(job_.penalty[i >= j ? entry(i, j) : entry(j, i)]);
+        for (int w = 0; w < kWide; ++w) {
+          right_[i].part[w] = right_[i].part[w] - a * unknowns_[j].part[w];
+        }
+      }
+    }
+  }
+
+  // What the unknowns leave of the residual.
+  HWY_INLINE void leave() {
+    for (std::size_t l = 0; l < job_.lights; ++l) {
+      V sums[kWide] = {V(0.0), V(0.0)};
+      const float* row = job_.basis + l * P;
+#pragma GCC unroll 16
+      for (int k = 0; k < P; ++k) {
+        const V b = broadcast(row[k]);
+        for (int w = 0; w < kWide; ++w) sums[w] = multiply_add(b, unknowns_[k].part[w], sums[w]);
+      }
+      for (int w = 0; w < kWide; ++w) {
+        const std::size_t at = l * kStep + static_cast<std::size_t>(w) * V::size;
+        const V m = V::load(&modulation_[at]);
+        (V::load(&residual_[at]) - m * sums[w]).store(&left_[at]);
+      }
+    }
+  }
+
+  HWY_INLINE void solve() {
+    for (int k = 0; k < P; ++k) {
+      for (int w = 0; w < kWide; ++w) unknowns_[k].part[w] = V(0.0);
+    }
+    sum_right_sides<0>(residual_);
+    add_solution();
+    leave();
+    sum_right_sides<0>(left_);
+    subtract_penalty();
+    add_solution();
+    leave();
+  }
+
+  HWY_INLINE void errors() {
+    for (int w = 0; w < kWide; ++w) {
+      V sum(0.0);
+      for (std::size_t l = 0; l < job_.lights; ++l) {
+        const V e = V::load(&residual_[l * kStep + static_cast<std::size_t>(w) * V::size]);
+        sum = multiply_add(e, e, sum);
+      }
+      without_.part[w] = sum;
+      with_.part[w] = V(0.0);
+    }
+    if (job_.leave_one_out) {
+      leave_one_out();
+      return;
+    }
+    for (int w = 0; w < kWide; ++w) {
+      for (std::size_t l = 0; l < job_.lights; ++l) {
+        const V r = V::load(&left_[l * kStep + static_cast<std::size_t>(w) * V::size]);
+        with_.part[w] = multiply_add(r, r, with_.part[w]);
+      }
+    }
+  }
+
+  HWY_INLINE void leave_one_out() {
+    for (int i = 1; i < P; ++i) {  // entries off the diagonal count twice in products with symmetric ones
+      for (int j = 0; j < i; ++j) {
+        for (int w = 0; w < kWide; ++w) {
+          gram_[entry(i, j)].part[w] = gram_[entry(i, j)].part[w] + gram_[entry(i, j)].part[w];
+        }
+      }
+    }
+    constexpr int group = V::size >= 16 ? 8 : 4;
+    for (std::size_t first = 0; first < padded_; first += group) {
+      V hats[group][kWide];
+      for (int g = 0; g < group; ++g) {
+        for (int w = 0; w < kWide; ++w) hats[g][w] = V(0.0);
+      }
+      const float* row = job_.products + first * n;
+      for (int k = 0; k < n; ++k) {
+#pragma GCC unroll 8
+        for (int g = 0; g < group; ++g) {
+          const V b = broadcast(row[g * n + k]);
+          for (int w = 0; w < kWide; ++w) hats[g][w] = multiply_add(b, gram_[k].part[w], hats[g][w]);
+        }
+      }
+      for (int g = 0; g < group; ++g) {
+        for (int w = 0; w < kWide; ++w) {
+          add_left_out((first + static_cast<std::size_t>(g)) * kStep + static_cast<std::size_t>(w) * V::size,
+                       hats[g][w], with_.part[w]);
+        }
+      }
+    }
+  }
+
+  // hat: a light's diagonal of the hat matrix, without its modulation.
+  HWY_INLINE void add_left_out(std::size_t at, V hat, V& sum) {
+    const V m = V::load(&modulation_[at]);
+    const V freedom = V(1.0) - m * m * hat;
+    const auto free = freedom > V(bake::kLeastFreedom);
+    const V error =
+        select(free, V::load(&left_[at]) / select(free, freedom, V(1.0)), V::load(&residual_[at]));
+    sum = multiply_add(error, error, sum);
+  }
+
+  HWY_INLINE void store(std::size_t first, std::size_t length) {
+    V keep[kWide];
+    alignas(64) float values[kStep];
+    const auto put = [&](float* plane) {
+      for (std::size_t k = 0; k < length; ++k) plane[first + k] = values[k];
+    };
+    for (int w = 0; w < kWide; ++w) {
+      const auto better = with_.part[w] < without_.part[w];
+      const V divisor = select(better, without_.part[w], V(1.0));
+      const V confidence = select(better, V(1.0) - with_.part[w] / divisor, V(0.0));
+      confidence.store(values + static_cast<std::size_t>(w) * V::size);
+      keep[w] = job_.select ? select(better, V(1.0), V(0.0)) : V(1.0);
+    }
+    put(job_.confidence);
+    for (int k = 0; k < job_.lobes; ++k) {
+      for (int w = 0; w < kWide; ++w) {
+        V sum(0.0);
+        for (int i = 0; i < P; ++i) {
+          sum = multiply_add(broadcast(job_.mixes[k * P + i]), unknowns_[i].part[w], sum);
+        }
+        (sum * keep[w]).store(values + static_cast<std::size_t>(w) * V::size);
+      }
+      put(job_.amplitudes + static_cast<std::size_t>(k) * job_.stride);
+    }
+    for (int w = 0; w < kWide; ++w) with_.part[w].store(values + static_cast<std::size_t>(w) * V::size);
+    put(job_.error_with);
+    for (int w = 0; w < kWide; ++w) without_.part[w].store(values + static_cast<std::size_t>(w) * V::size);
+    put(job_.error_without);
+  }
+
+  const SolveJob& job_;
+  std::size_t padded_;
+  float* residual_;    // [light][kStep]
+  float* modulation_;  // [light][kStep]
+  float* left_;        // [light][kStep]
+  Wide gram_[n];
+  Wide right_[P];
+  Wide unknowns_[P];
+  Wide with_;
+  Wide without_;
+};
+
+}  // namespace
+
+void solve_texels(const SolveJob& job) {
+  switch (job.width) {
+    case 4:
+      return TexelSolver<4>(job).run();
+    case 8:
+      return TexelSolver<8>(job).run();
+    case 12:
+      return TexelSolver<12>(job).run();
+    default:
+      return TexelSolver<16>(job).run();
+  }
+}
+
+}  // namespace brdfit::simd::BRDFIT_SIMD_ISA
