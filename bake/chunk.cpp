@@ -19,35 +19,40 @@ LightChoice without(const StackInfo& info, std::span<const std::uint32_t> held_o
   return lights;
 }
 
-ChunkLights::ChunkLights(const StackInfo& info, std::span<const std::uint32_t> lights)
+template <class S>
+ChunkLightsOf<S>::ChunkLightsOf(const StackInfo& info, std::span<const std::uint32_t> lights)
     : info_(info), lights_(lights.begin(), lights.end()), near_(has_near_lights(info)) {
   for (const std::uint32_t light : lights_) {
     const StackLight& source = info.lights[light];
     for (const double part : {source.direction.x, source.direction.y, source.direction.z}) {
-      direction_.push_back(static_cast<float>(part));
+      direction_.push_back(static_cast<S>(part));
     }
-    falloff_.push_back(1.0F);
-    for (const double channel : source.intensity) intensity_.push_back(static_cast<float>(channel));
+    falloff_.push_back(S(1));
+    for (const double channel : source.intensity) intensity_.push_back(static_cast<S>(channel));
   }
 }
 
-LightColumns ChunkLights::columns(std::span<const std::uint32_t> texels,
-                                  std::vector<float>& at_texels) const {
+template <class S>
+LightColumnsOf<S> ChunkLightsOf<S>::columns(std::span<const std::uint32_t> texels,
+                                            std::vector<S>& at_texels) const {
   if (!near_) return {lights_.size(), 1, direction_.data(), falloff_.data(), intensity_.data()};
   at_texels.resize(lights_.size() * 4 * kChunk);
-  float* direction = at_texels.data();
-  float* falloff = direction + lights_.size() * 3 * kChunk;
+  S* direction = at_texels.data();
+  S* falloff = direction + lights_.size() * 3 * kChunk;
   for (std::size_t k = 0; k < lights_.size(); ++k) {
     for (std::size_t t = 0; t < kChunk; ++t) {
       const Incidence at = incidence(info_, lights_[k], texels[std::min(t, texels.size() - 1)]);
-      direction[(k * 3 + 0) * kChunk + t] = static_cast<float>(at.direction.x);
-      direction[(k * 3 + 1) * kChunk + t] = static_cast<float>(at.direction.y);
-      direction[(k * 3 + 2) * kChunk + t] = static_cast<float>(at.direction.z);
-      falloff[k * kChunk + t] = static_cast<float>(at.falloff);
+      direction[(k * 3 + 0) * kChunk + t] = static_cast<S>(at.direction.x);
+      direction[(k * 3 + 1) * kChunk + t] = static_cast<S>(at.direction.y);
+      direction[(k * 3 + 2) * kChunk + t] = static_cast<S>(at.direction.z);
+      falloff[k * kChunk + t] = static_cast<S>(at.falloff);
     }
   }
   return {lights_.size(), kChunk, direction, falloff, intensity_.data()};
 }
+
+template class ChunkLightsOf<float>;
+template class ChunkLightsOf<double>;
 
 ValueColumns chunk_values(const TexelBlock& block, std::span<const std::uint32_t> lights, std::size_t first,
                           std::vector<float>& padded) {
@@ -79,13 +84,17 @@ ValueColumns chunk_values(const TexelBlock& block, std::span<const std::uint32_t
   return columns;
 }
 
-void copy_chunk(std::span<const float> matrix, std::size_t columns, std::size_t first, float* to) {
+template <class S>
+void copy_chunk(std::span<const float> matrix, std::size_t columns, std::size_t first, S* to) {
   for (std::size_t row = 0; row < 3; ++row) {
     for (std::size_t t = 0; t < kChunk; ++t) {
       to[row * kChunk + t] = matrix[row * columns + std::min(first + t, columns - 1)];
     }
   }
 }
+
+template void copy_chunk(std::span<const float>, std::size_t, std::size_t, float*);
+template void copy_chunk(std::span<const float>, std::size_t, std::size_t, double*);
 
 void store_chunk(const float* from, std::size_t rows, std::size_t columns, std::size_t first,
                  std::span<float> matrix) {

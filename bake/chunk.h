@@ -17,22 +17,25 @@ LightChoice all_lights(const StackInfo& info);
 // The others.
 LightChoice without(const StackInfo& info, std::span<const std::uint32_t> held_out);
 
-// Chosen lights over chunks of texels. Directional ones are the same for all chunks.
-class ChunkLights {
+// Chosen lights over chunks of texels, in single or double precision. Directional ones are the same for all
+// chunks.
+template <class S>
+class ChunkLightsOf {
  public:
-  ChunkLights(const StackInfo& info, std::span<const std::uint32_t> lights);
+  ChunkLightsOf(const StackInfo& info, std::span<const std::uint32_t> lights);
 
   // Where near lights differ between texels, `at_texels` is filled and referred to.
-  LightColumns columns(std::span<const std::uint32_t> texels, std::vector<float>& at_texels) const;
+  LightColumnsOf<S> columns(std::span<const std::uint32_t> texels, std::vector<S>& at_texels) const;
 
  private:
   const StackInfo& info_;
   LightChoice lights_;
   bool near_;
-  std::vector<float> direction_;
-  std::vector<float> falloff_;
-  std::vector<float> intensity_;
+  std::vector<S> direction_;
+  std::vector<S> falloff_;
+  std::vector<S> intensity_;
 };
+using ChunkLights = ChunkLightsOf<float>;
 
 // The values of texels [first, first + kChunk) of a block; `padded` is filled and referred to where the block
 // ends earlier, with weights 0 for what is not there.
@@ -40,7 +43,8 @@ ValueColumns chunk_values(const TexelBlock& block, std::span<const std::uint32_t
                           std::vector<float>& padded);
 
 // Columns [first, first + kChunk) of a matrix of 3 rows, the last one repeated where it ends earlier.
-void copy_chunk(std::span<const float> matrix, std::size_t columns, std::size_t first, float* to);
+template <class S>
+void copy_chunk(std::span<const float> matrix, std::size_t columns, std::size_t first, S* to);
 // The other way, what is beyond the end left out.
 void store_chunk(const float* from, std::size_t rows, std::size_t columns, std::size_t first,
                  std::span<float> matrix);

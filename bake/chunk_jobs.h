@@ -12,14 +12,16 @@ namespace brdfit::bake {
 // Texels that vector code works on at a time: their values under all lights stay in a cache.
 inline constexpr std::size_t kChunk = simd::kBlock;
 
-// Lights as they reach the texels of a chunk.
-struct LightColumns {
+// Lights as they reach the texels of a chunk. S: float or double.
+template <class S>
+struct LightColumnsOf {
   std::size_t count = 0;
-  std::size_t stride = 1;            // 1: the same for all texels; kChunk: one for each
-  const float* direction = nullptr;  // [light][3][stride], unit, towards the light
-  const float* falloff = nullptr;    // [light][stride]
-  const float* intensity = nullptr;  // [light][3], linear
+  std::size_t stride = 1;        // 1: the same for all texels; kChunk: one for each
+  const S* direction = nullptr;  // [light][3][stride], unit, towards the light
+  const S* falloff = nullptr;    // [light][stride]
+  const S* intensity = nullptr;  // [light][3], linear
 };
+using LightColumns = LightColumnsOf<float>;
 
 // Values of a chunk: those of light k stand at value + light[k] * light_stride + channel * channel_stride.
 struct ValueColumns {
@@ -51,20 +53,40 @@ struct StereoJob {
 };
 using StereoFunction = void (*)(const StereoJob&);
 
-// A material's render over a chunk; see bake/render_block.h.
-struct RenderJob {
-  LightColumns lights;
-  simd::Coefficients black;  // the material with base colour 0
-  simd::Coefficients white;  // and 1
-  bool lambert = false;
-  const float* normals = nullptr;  // [3][kChunk]
-  float view[3] = {0.0F, 0.0F, 1.0F};
-  // [light][channel][kChunk]: of a material affine in its base colour, the render of black and what a white
-  // base colour adds.
-  float* offset = nullptr;
-  float* slope = nullptr;
+// A material over a chunk. It is affine in its base colour, so that under light k
+//   radiance = offset[k] + slope[k] base_colour    per channel.
+template <class S>
+struct AffineJob {
+  LightColumnsOf<S> lights;
+  simd::Coefficients black;    // the material with base colour 0
+  simd::Coefficients white;    // and 1
+  const S* normals = nullptr;  // [3][kChunk]
+  S view[3] = {S(0), S(0), S(1)};
+  S* offset = nullptr;  // [light][channel][kChunk]
+  S* slope = nullptr;
 };
+
+// A render over a chunk; see bake/base_model.h.
+struct RenderJob {
+  AffineJob<float> affine;
+  bool lambert = false;           // slope only, of the white Lambert surface
+  const float* albedo = nullptr;  // [3][kChunk]
+  float* out = nullptr;  // of light k and a channel at out + k * light_stride + channel * channel_stride
+  std::size_t light_stride = 0;
+  std::size_t channel_stride = 0;
+};
+
+// Base colours of a chunk in closed form.
+struct BaseColourJob {
+  AffineJob<float> affine;
+  ValueColumns values;
+  float robust_width = 0.0F;
+  float* base_colour = nullptr;  // [3][kChunk]
+};
+
+using AffineFunction = void (*)(const AffineJob<double>&);
 using RenderFunction = void (*)(const RenderJob&);
+using BaseColourFunction = void (*)(const BaseColourJob&);
 
 }  // namespace brdfit::bake
 

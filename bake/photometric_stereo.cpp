@@ -7,6 +7,7 @@
 #include <array>
 #include <stdexcept>
 
+#include "bake/luminance.h"
 #include "brdf/simd/dispatch.h"
 
 namespace brdfit::simd {
@@ -18,8 +19,6 @@ bake::StereoFunction stereo_function(Isa isa) {
 
 namespace brdfit::bake {
 namespace {
-
-constexpr std::array<double, 3> kLuminance = {0.2126, 0.7152, 0.0722};
 
 void check(const StackInfo& info, const TexelBlock& block, const LightChoice& lights,
            const StereoOptions& options) {

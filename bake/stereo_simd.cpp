@@ -1,5 +1,6 @@
 // Vectorised photometric stereo, one texel per lane. Compiled once for every instruction set.
 #include "bake/chunk_jobs.h"
+#include "bake/chunk_lanes.h"
 #include "brdf/simd/lanes.h"
 
 namespace brdfit::simd::BRDFIT_SIMD_ISA {
@@ -10,26 +11,7 @@ using bake::LightColumns;
 using bake::StereoJob;
 using F = Lanes<float>;
 
-struct Vec {
-  F x;
-  F y;
-  F z;
-};
-HWY_INLINE F dot(const Vec& a, const Vec& b) {
-  return multiply_add(a.x, b.x, multiply_add(a.y, b.y, a.z * b.z));
-}
-HWY_INLINE Vec operator+(const Vec& a, const Vec& b) {
-  return {a.x + b.x, a.y + b.y, a.z + b.z};
-}
-HWY_INLINE Vec operator-(const Vec& a, const Vec& b) {
-  return {a.x - b.x, a.y - b.y, a.z - b.z};
-}
-HWY_INLINE Vec operator*(const Vec& a, F s) {
-  return {a.x * s, a.y * s, a.z * s};
-}
-HWY_INLINE F at_least(F x, F lower) {
-  return select(x > lower, x, lower);
-}
+using Vec = VecOf<float>;
 
 // Symmetric 3 x 3.
 struct Symmetric {
@@ -66,24 +48,6 @@ struct Symmetric {
             (xx * zz - xz * xz) * scale,
             (xy * xz - xx * yz) * scale,
             (xx * yy - xy * xy) * scale};
-  }
-};
-
-// A light as it reaches lanes of texels.
-template <bool kNear>
-struct LightAt {
-  Vec direction;
-  F falloff;
-
-  HWY_INLINE LightAt(const LightColumns& lights, std::size_t k, std::size_t at) {
-    const float* d = lights.direction + k * 3 * lights.stride;
-    if constexpr (kNear) {
-      direction = {F::load(d + at), F::load(d + kChunk + at), F::load(d + 2 * kChunk + at)};
-      falloff = F::load(lights.falloff + k * kChunk + at);
-    } else {
-      direction = {F(d[0]), F(d[1]), F(d[2])};
-      falloff = F(1.0);
-    }
   }
 };
 
@@ -136,7 +100,7 @@ struct Stereo {
   }
 
   HWY_INLINE Vec scaled_light(std::size_t k) const {
-    const LightAt<kNear> light(job.lights, k, at);
+    const LightAt<float, kNear> light(job.lights, k, at);
     return light.direction * (light.falloff * F(job.grey_intensity[k]));
   }
 
@@ -272,7 +236,7 @@ struct Stereo {
     F top[3] = {F(0.0), F(0.0), F(0.0)};
     F bottom[3] = {F(0.0), F(0.0), F(0.0)};
     for (std::size_t k = 0; k < job.lights.count; ++k) {
-      const LightAt<kNear> light(job.lights, k, at);
+      const LightAt<float, kNear> light(job.lights, k, at);
       const F cosine = at_least(dot(light.direction, normal), F(0.0)) * light.falloff;
       const F r = F::load(grey + k * kChunk) - cosine * F(job.grey_intensity[k]) * last;
       const F w = F::load(weight + k * kChunk) / multiply_add(r * r, inverse_width, F(1.0));
