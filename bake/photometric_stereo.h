@@ -35,8 +35,8 @@ struct Surface {
 
 struct StereoOptions {
   // Rounds of reweighting: by 1/|residual| first, which finds the majority, then by Cauchy's weights.
-  int absolute_rounds = 6;
-  int robust_rounds = 6;
+  int absolute_rounds = 8;
+  int robust_rounds = 8;
   // Half of its weight is lost to a value whose residual is this many standard deviations.
   double robust_width = 2.5;
   // Standard deviation of a normal's slopes against the view direction before anything is seen: how far a
