@@ -10,9 +10,10 @@
 #include <span>
 #include <vector>
 
+#include "bake/lobes.h"
+
 namespace brdfit::bake {
 
-inline constexpr int kMaxLobes = 32;
 using LobeVector = Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMaxLobes, 1>;
 using LobeMatrix = Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMaxLobes, kMaxLobes>;
 

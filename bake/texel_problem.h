@@ -12,10 +12,6 @@
 
 namespace brdfit::bake {
 
-// How amplitudes carry colour: one amplitude per lobe; one per lobe and channel; one per lobe, and per texel
-// three factors that give it its colour.
-enum class ColourMode { kLuminance, kRgb, kScaledChroma };
-
 // One number per texel and light: residual = modulation x sum over lobes of amplitude x lobe. All planes are
 // [light][texel], finite.
 struct TexelProblem {

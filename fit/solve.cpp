@@ -23,11 +23,11 @@ Eigen::MatrixXd factor(const Eigen::MatrixXd& gram) {
   return (ldlt.transpositionsP().transpose() * upper.transpose().eval()).transpose();
 }
 
-// A Problem as Ceres sees it: one block of the parameters that move.
+// An objective as Ceres sees it: one block of the parameters that move.
 class ReducedCost : public ceres::CostFunction {
  public:
-  ReducedCost(const Problem& problem, std::vector<double> x, std::vector<std::size_t> moving)
-      : problem_(problem), x_(std::move(x)), moving_(std::move(moving)) {
+  ReducedCost(const Objective& objective, std::vector<double> x, std::vector<std::size_t> moving)
+      : objective_(objective), x_(std::move(x)), moving_(std::move(moving)) {
     set_num_residuals(static_cast<int>(moving_.size()) + 2);
     mutable_parameter_block_sizes()->push_back(static_cast<int>(moving_.size()));
   }
@@ -38,13 +38,13 @@ class ReducedCost : public ceres::CostFunction {
     const auto n = static_cast<Eigen::Index>(moving_.size());
     Eigen::Map<Eigen::VectorXd> r(residuals, n + 2);
     if (jacobians == nullptr || jacobians[0] == nullptr) {
-      const double cost = problem_.cost(x);
+      const double cost = objective_.cost(x);
       r.setZero();
       r[n + 1] = std::sqrt(2.0 * std::max(cost, 0.0));
       return std::isfinite(cost);
     }
     double cost = 0.0;
-    const Eigen::MatrixXd all = problem_.gram(x, &cost);
+    const Eigen::MatrixXd all = objective_.gram(x, &cost);
     std::vector<Eigen::Index> picked(moving_.begin(), moving_.end());
     picked.push_back(all.rows() - 1);
     const Eigen::MatrixXd gram = all(picked, picked);
@@ -61,7 +61,7 @@ class ReducedCost : public ceres::CostFunction {
   }
 
  private:
-  const Problem& problem_;
+  const Objective& objective_;
   std::vector<double> x_;
   std::vector<std::size_t> moving_;
 };
@@ -80,9 +80,14 @@ bool is_pinned(double x, double gradient, double lower, double upper) {
   return (x <= lower + margin && gradient > 0.0) || (x >= upper - margin && gradient < 0.0);
 }
 
-Eigen::VectorXd gradient_at(const Problem& problem, const std::vector<double>& x) {
-  const Eigen::MatrixXd gram = problem.gram(x);
+Eigen::VectorXd gradient_at(const Objective& objective, const std::vector<double>& x) {
+  const Eigen::MatrixXd gram = objective.gram(x, nullptr);
   return gram.col(gram.cols() - 1).head(gram.rows() - 1);
+}
+
+Objective objective_of(const Problem& problem) {
+  return {[&problem](std::span<const double> x) { return problem.cost(x); },
+          [&problem](std::span<const double> x, double* cost) { return problem.gram(x, cost); }};
 }
 
 }  // namespace
@@ -97,13 +102,13 @@ Box full_box(const Parametrisation& parametrisation) {
   return box;
 }
 
-Solution solve(const Problem& problem, const std::vector<double>& x, const Box& box,
+Solution solve(const Objective& objective, const std::vector<double>& x, const Box& box,
                const SolveOptions& options) {
   Solution solution;
   solution.x = x;
   const std::vector<std::size_t> moving = moving_indices(box);
   if (moving.empty()) {
-    solution.cost = problem.cost(x);
+    solution.cost = objective.cost(x);
     solution.converged = true;
     solution.termination = "nothing to fit";
     return solution;
@@ -111,7 +116,7 @@ Solution solve(const Problem& problem, const std::vector<double>& x, const Box& 
   std::vector<double> block;
   for (const std::size_t k : moving) block.push_back(std::clamp(x[k], box.lower[k], box.upper[k]));
   ceres::Problem reduced;
-  reduced.AddResidualBlock(new ReducedCost(problem, x, moving), nullptr, block.data());
+  reduced.AddResidualBlock(new ReducedCost(objective, x, moving), nullptr, block.data());
   for (std::size_t k = 0; k < moving.size(); ++k) {
     reduced.SetParameterLowerBound(block.data(), static_cast<int>(k), box.lower[moving[k]]);
     reduced.SetParameterUpperBound(block.data(), static_cast<int>(k), box.upper[moving[k]]);
@@ -138,19 +143,19 @@ Solution solve(const Problem& problem, const std::vector<double>& x, const Box& 
   return solution;
 }
 
-Solution solve_pinning(const Problem& problem, const std::vector<double>& x, const Box& box,
+Solution solve_pinning(const Objective& objective, const std::vector<double>& x, const Box& box,
                        const SolveOptions& options) {
   // Few steps with everything free show which parameters press against their bounds.
   constexpr int kFirstIterations = 12;
   constexpr int kRounds = 8;
   SolveOptions first = options;
   first.max_iterations = std::min(options.max_iterations, kFirstIterations);
-  Solution best = solve(problem, x, box, first);
+  Solution best = solve(objective, x, box, first);
   int iterations = best.iterations;
   int evaluations = best.evaluations;
   std::vector<bool> moved = box.moves;
   for (int round = 0; round < kRounds && iterations < options.max_iterations; ++round) {
-    const Eigen::VectorXd gradient = gradient_at(problem, best.x);
+    const Eigen::VectorXd gradient = gradient_at(objective, best.x);
     Box active = box;
     for (std::size_t k = 0; k < best.x.size(); ++k) {
       if (is_pinned(best.x[k], gradient[static_cast<Eigen::Index>(k)], box.lower[k], box.upper[k])) {
@@ -160,7 +165,7 @@ Solution solve_pinning(const Problem& problem, const std::vector<double>& x, con
     if (best.converged && active.moves == moved) break;
     SolveOptions rest = options;
     rest.max_iterations = options.max_iterations - iterations;
-    best = solve(problem, best.x, active, rest);
+    best = solve(objective, best.x, active, rest);
     moved = active.moves;
     iterations += best.iterations;
     evaluations += best.evaluations;
@@ -168,6 +173,16 @@ Solution solve_pinning(const Problem& problem, const std::vector<double>& x, con
   best.iterations = iterations;
   best.evaluations = evaluations;
   return best;
+}
+
+Solution solve(const Problem& problem, const std::vector<double>& x, const Box& box,
+               const SolveOptions& options) {
+  return solve(objective_of(problem), x, box, options);
+}
+
+Solution solve_pinning(const Problem& problem, const std::vector<double>& x, const Box& box,
+                       const SolveOptions& options) {
+  return solve_pinning(objective_of(problem), x, box, options);
 }
 
 void silence_solver_logging() {

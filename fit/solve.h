@@ -2,6 +2,8 @@
 #ifndef BRDFIT_FIT_SOLVE_H_
 #define BRDFIT_FIT_SOLVE_H_
 
+#include <functional>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -35,6 +37,18 @@ struct Box {
   std::vector<bool> moves;  // false: held at the start
 };
 Box full_box(const Parametrisation& parametrisation);
+
+// What can be minimised: half of a sum of squares at x, and [J r]^T [J r] with the residual last (with the
+// cost where asked for), as Problem has them.
+struct Objective {
+  std::function<double(std::span<const double>)> cost;
+  std::function<Eigen::MatrixXd(std::span<const double>, double*)> gram;
+};
+
+Solution solve(const Objective& objective, const std::vector<double>& x, const Box& box,
+               const SolveOptions& options);
+Solution solve_pinning(const Objective& objective, const std::vector<double>& x, const Box& box,
+                       const SolveOptions& options);
 
 // One run of Ceres from x, inside the box.
 Solution solve(const Problem& problem, const std::vector<double>& x, const Box& box,

@@ -36,15 +36,18 @@ HWY_INLINE kernel::GeometryLogs<V> load_logs(const GeometryColumns& g, std::size
   return r;
 }
 
-// One struct per model: its kernel's shape and colours, and the two steps of its evaluation.
-struct LambertGgxLanes {
+// One struct per model: its kernel's shape and colours, and the two steps of its evaluation. S: double or
+// float.
+template <class S>
+struct LambertGgxLanesOf {
+  using V = Lanes<S>;
   static constexpr bool uses_logs = false;
   kernel::LambertGgxShape<V> shape;
   kernel::LambertGgxColour<V> colour[3];
   int masking;
   int diffuse;
 
-  explicit HWY_INLINE LambertGgxLanes(const Coefficients& k) : masking(k.masking), diffuse(k.diffuse) {
+  explicit HWY_INLINE LambertGgxLanesOf(const Coefficients& k) : masking(k.masking), diffuse(k.diffuse) {
     shape.alpha = V(k.shape[0]);
     for (int c = 0; c < 3; ++c) colour[c] = {V(k.colour[c][0]), V(k.colour[c][1])};
   }
@@ -57,14 +60,16 @@ struct LambertGgxLanes {
   }
 };
 
-struct BurleyLanes {
+template <class S>
+struct BurleyLanesOf {
+  using V = Lanes<S>;
   static constexpr bool uses_logs = false;
   kernel::BurleyShape<V> shape;
   kernel::BurleyColour<V> colour[3];
   int burley_g;
   int effects;
 
-  explicit HWY_INLINE BurleyLanes(const Coefficients& k) : burley_g(k.burley_g), effects(k.effects) {
+  explicit HWY_INLINE BurleyLanesOf(const Coefficients& k) : burley_g(k.burley_g), effects(k.effects) {
     shape = {V(k.shape[0]), V(k.shape[1]), V(k.shape[2]), V(k.shape[3]), V(k.shape[4])};
     for (int c = 0; c < 3; ++c) {
       colour[c] = {V(k.colour[c][0]), V(k.colour[c][1]), V(k.colour[c][2]), V(k.colour[c][3])};
@@ -79,7 +84,9 @@ struct BurleyLanes {
   }
 };
 
-struct CallistoLanes {
+template <class S>
+struct CallistoLanesOf {
+  using V = Lanes<S>;
   static constexpr bool uses_logs = true;
   kernel::CallistoShape<V> shape;
   kernel::CallistoColour<V> colour[3];
@@ -87,7 +94,7 @@ struct CallistoLanes {
   int diffuse;
   int effects;
 
-  explicit HWY_INLINE CallistoLanes(const Coefficients& k)
+  explicit HWY_INLINE CallistoLanesOf(const Coefficients& k)
       : masking(k.masking), diffuse(k.diffuse), effects(k.effects) {
     shape = {V(k.shape[0]), V(k.shape[1]), V(k.shape[2]), V(k.shape[3]), V(k.shape[4]),
              V(k.shape[5]), V(k.shape[6]), V(k.shape[7]), V(k.shape[8])};
@@ -104,6 +111,10 @@ struct CallistoLanes {
     return kernel::callisto_combine(colour[c], terms);
   }
 };
+
+using LambertGgxLanes = LambertGgxLanesOf<double>;
+using BurleyLanes = BurleyLanesOf<double>;
+using CallistoLanes = CallistoLanesOf<double>;
 
 }  // namespace brdfit::simd::BRDFIT_SIMD_ISA
 

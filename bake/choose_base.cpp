@@ -1,0 +1,118 @@
+#include "bake/choose_base.h"
+
+#include <algorithm>
+#include <cmath>
+#include <stdexcept>
+
+#include "bake/luminance.h"
+
+namespace brdfit::bake {
+namespace {
+
+SharedMaterial fit_candidate(const StackInfo& info, const TexelBlock& block, const Surface& surface,
+                             const LightChoice& lights, std::optional<Model> model,
+                             const ChooseBaseOptions& options) {
+  if (!model) {
+    SharedMaterial lambert;
+    lambert.converged = true;
+    lambert.termination = "nothing to fit";
+    return lambert;
+  }
+  SharedMaterialOptions material = options.material;
+  material.model = *model;
+  material.effects = effects_of(*model);
+  return fit_shared_material(info, block, surface, lights, material);
+}
+
+// Errors of one candidate, trained on some lights, under these and under others.
+struct Errors {
+  double training = 0.0;
+  double held_out = 0.0;
+};
+
+Errors errors_of(const StackInfo& info, const StackInfo& gained, const TexelBlock& block,
+                 const Surface& surface, const LightChoice& training, const LightChoice& held_out,
+                 std::optional<Model> model, const ChooseBaseOptions& options) {
+  const SharedMaterial fit = fit_candidate(gained, block, surface, training, model, options);
+  const Surface coloured = with_base_colour(gained, block, surface, training, fit.model);
+  return {luminance_rmse(block, render_block(gained, block, coloured, training, fit.model), training),
+          luminance_rmse(block, render_block(info, block, coloured, held_out, fit.model), held_out)};
+}
+
+std::vector<double> gains_of(const StackInfo& info, const TexelBlock& block, const LightChoice& lights,
+                             const ChooseBaseOptions& options, GainEstimate* estimate) {
+  if (!options.with_gains) return std::vector<double>(info.lights.size(), 1.0);
+  GainEstimate found = estimate_gains(info, block, lights, options.gains);
+  std::vector<double> gains = found.gain;
+  if (estimate != nullptr) *estimate = std::move(found);
+  return gains;
+}
+
+void add_fold(const StackInfo& info, const TexelBlock& block, const LightChoice& training,
+              const LightChoice& held_out, const ChooseBaseOptions& options,
+              std::vector<BaseCandidate>& candidates) {
+  const StackInfo gained = with_gains(info, gains_of(info, block, training, options, nullptr));
+  const Surface surface = photometric_stereo(gained, block, training, options.stereo);
+  for (BaseCandidate& candidate : candidates) {
+    const Errors errors =
+        errors_of(info, gained, block, surface, training, held_out, candidate.model, options);
+    candidate.training_rmse += errors.training * errors.training;
+    // Folds may differ in size by a light.
+    candidate.held_out_rmse += errors.held_out * errors.held_out * static_cast<double>(held_out.size());
+  }
+}
+
+std::size_t best_of(const std::vector<BaseCandidate>& candidates, double margin) {
+  std::size_t best = 0;
+  for (std::size_t k = 1; k < candidates.size(); ++k) {
+    if (candidates[k].held_out_rmse < (1.0 - margin) * candidates[best].held_out_rmse) best = k;
+  }
+  return best;
+}
+
+}  // namespace
+
+bool ChooseBaseOptions::is_valid(std::string* why) const {
+  const auto fails = [why](const char* reason) {
+    if (why != nullptr) *why = reason;
+    return false;
+  };
+  if (folds < 2) return fails("there must be two folds or more");
+  if (!(margin >= 0.0 && margin < 1.0)) return fails("margin must lie in [0, 1)");
+  return stereo.is_valid(why) && material.is_valid(why) && gains.is_valid(why);
+}
+
+std::string_view title_of(const BaseCandidate& candidate) {
+  return candidate.model ? title_of(*candidate.model) : "Lambert";
+}
+
+BaseChoice choose_base_model(const StackInfo& info, const TexelBlock& block, const LightChoice& lights,
+                             const ChooseBaseOptions& options) {
+  std::string why;
+  if (!options.is_valid(&why)) throw std::invalid_argument("choose_base_model: " + why);
+  BaseChoice choice;
+  choice.candidates.push_back({});
+  for (const Model model : options.models) choice.candidates.push_back({.model = model});
+  const std::size_t folds = std::min<std::size_t>(static_cast<std::size_t>(options.folds), lights.size());
+  if (folds >= 2) {
+    for (std::size_t fold = 0; fold < folds; ++fold) {
+      LightChoice training;
+      LightChoice held_out;
+      for (std::size_t k = 0; k < lights.size(); ++k) {
+        (k % folds == fold ? held_out : training).push_back(lights[k]);
+      }
+      add_fold(info, block, training, held_out, options, choice.candidates);
+    }
+    for (BaseCandidate& candidate : choice.candidates) {
+      candidate.training_rmse = std::sqrt(candidate.training_rmse / static_cast<double>(folds));
+      candidate.held_out_rmse = std::sqrt(candidate.held_out_rmse / static_cast<double>(lights.size()));
+    }
+    choice.chosen = best_of(choice.candidates, options.margin);
+  }
+  const StackInfo gained = with_gains(info, gains_of(info, block, lights, options, &choice.gains));
+  const Surface surface = photometric_stereo(gained, block, lights, options.stereo);
+  choice.fit = fit_candidate(gained, block, surface, lights, choice.candidates[choice.chosen].model, options);
+  return choice;
+}
+
+}  // namespace brdfit::bake

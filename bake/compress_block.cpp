@@ -1,0 +1,85 @@
+#include "bake/compress_block.h"
+
+#include <tbb/parallel_for.h>
+
+#include <algorithm>
+#include <array>
+#include <stdexcept>
+
+namespace brdfit::bake {
+namespace {
+
+bool has_amplitudes(std::span<const float> amplitudes, std::size_t texels, std::size_t texel) {
+  for (std::size_t at = texel; at < amplitudes.size(); at += texels) {
+    if (amplitudes[at] != 0.0F) return true;
+  }
+  return false;
+}
+
+}  // namespace
+
+TexelEquations texel_equations(const LobeSystem& system, const TexelProblem& problem, std::size_t texel) {
+  const auto lobes = static_cast<Eigen::Index>(system.lobes().size());
+  TexelEquations equations{LobeMatrix::Zero(lobes, lobes), LobeVector::Zero(lobes)};
+  LobeVector values(lobes);
+  for (std::size_t light = 0; light < problem.lights; ++light) {
+    const double modulation = static_cast<double>(problem.modulation[problem.at(light, texel)]);
+    const double weight = static_cast<double>(problem.weight_of(light, texel)) * modulation;
+    if (weight == 0.0) continue;
+    if (problem.directions.empty()) {
+      values = system.basis().row(static_cast<Eigen::Index>(light)).transpose();
+    } else {
+      const Vec3 direction = problem.direction(light, texel, system.directions()[light]);
+      for (Eigen::Index k = 0; k < lobes; ++k)
+        values[k] = eval(system.lobes()[static_cast<std::size_t>(k)], direction);
+    }
+    equations.a.noalias() += weight * modulation * values * values.transpose();
+    equations.b += weight * static_cast<double>(problem.residual[problem.at(light, texel)]) * values;
+  }
+  equations.a.diagonal().array() += system.penalty();
+  return equations;
+}
+
+Compressed compress_block(const LobeSystem& system, const TexelProblem& problem,
+                          std::span<const float> amplitudes, std::span<const std::uint32_t> texels, int width,
+                          std::span<const double> precision, const CompressOptions& options) {
+  const std::size_t lobes = system.lobes().size();
+  const std::size_t count = problem.texels;
+  if (amplitudes.size() != lobes * count || texels.size() != count || precision.size() != lobes ||
+      width <= 0) {
+    throw std::invalid_argument("compress_block: sizes disagree");
+  }
+  const Quantiser quantiser{options.bits, {precision.begin(), precision.end()}};
+  Compressed out;
+  out.amplitudes.assign(lobes * count, 0.0F);
+  if (options.bits > 0) out.codes.assign(lobes * count, 0);
+  out.masks.assign(count, 0);
+  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t texel) {
+    if (!has_amplitudes(amplitudes, count, texel)) return;
+    const TexelEquations equations = texel_equations(system, problem, texel);
+    const Dominant dominant = dominant_lobes(equations, options.dominant);
+    out.masks[texel] = dominant.mask;
+    if (options.bits == 0) {
+      for (std::size_t k = 0; k < lobes; ++k) {
+        out.amplitudes[k * count + texel] =
+            static_cast<float>(dominant.amplitudes[static_cast<Eigen::Index>(k)]);
+      }
+      return;
+    }
+    std::array<double, kMaxLobes> dither{};
+    const auto wide = static_cast<std::uint32_t>(width);
+    for (std::size_t k = 0; k < lobes && options.dither; ++k) {
+      dither[k] = dither_threshold(texels[texel] % wide, texels[texel] / wide, static_cast<int>(k));
+    }
+    const std::vector<int> codes =
+        quantise(equations, quantiser, dominant.mask, std::span<const double>(dither).first(lobes));
+    for (std::size_t k = 0; k < lobes; ++k) {
+      out.codes[k * count + texel] = codes[k];
+      out.amplitudes[k * count + texel] =
+          static_cast<float>(quantiser.amplitude(static_cast<int>(k), codes[k]));
+    }
+  });
+  return out;
+}
+
+}  // namespace brdfit::bake

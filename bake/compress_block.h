@@ -1,0 +1,40 @@
+// Compression of a block's amplitudes: fewer lobes and fewer bits per texel, each texel by its own equations.
+#ifndef BRDFIT_BAKE_COMPRESS_BLOCK_H_
+#define BRDFIT_BAKE_COMPRESS_BLOCK_H_
+
+#include <cstdint>
+#include <span>
+#include <vector>
+
+#include "bake/compress.h"
+#include "bake/solve.h"
+#include "bake/texel_problem.h"
+
+namespace brdfit::bake {
+
+// A texel's normal equations under the system's lights.
+TexelEquations texel_equations(const LobeSystem& system, const TexelProblem& problem, std::size_t texel);
+
+struct CompressOptions {
+  int bits = 8;      // of a code; 0: amplitudes are not rounded
+  int dominant = 0;  // lobes kept per texel
+  bool dither = true;
+};
+
+// What is left of amplitudes.
+struct Compressed {
+  std::vector<float> amplitudes;     // [lobe][texel]: what the codes stand for
+  std::vector<int> codes;            // [lobe][texel]; empty where amplitudes are not rounded
+  std::vector<std::uint32_t> masks;  // per texel, bit k: lobe k is kept; 0 for texels without amplitudes
+};
+
+// precision: per lobe (precision_per_lobe). texels: pixel of each, for the dither. width: of the picture.
+// Texels whose amplitudes are all 0 (not selected) stay so. Parallel over texels; the same for any number of
+// threads. Throws std::invalid_argument where sizes disagree.
+Compressed compress_block(const LobeSystem& system, const TexelProblem& problem,
+                          std::span<const float> amplitudes, std::span<const std::uint32_t> texels, int width,
+                          std::span<const double> precision, const CompressOptions& options);
+
+}  // namespace brdfit::bake
+
+#endif  // BRDFIT_BAKE_COMPRESS_BLOCK_H_

@@ -1,0 +1,63 @@
+// What a bake is worth: errors of Lambert, of the fitted model, of other ways to relight, and of Realis,
+// under lights that were baked from and under lights that were held out of everything.
+#ifndef BRDFIT_BAKE_EVIDENCE_H_
+#define BRDFIT_BAKE_EVIDENCE_H_
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "bake/plan.h"
+#include "measured/image_stack.h"
+
+namespace brdfit::bake {
+
+// Of predicted luminances, over texels and lights, in 1/255 (a value of 1 is 255).
+struct StackErrors {
+  double rmse_255 = 0.0;
+  double psnr_db = 0.0;       // of a peak of 1
+  double lit_rmse_255 = 0.0;  // where the texel faces the light
+  double worst_light_rmse_255 = 0.0;
+  std::size_t worst_light = 0;
+  std::vector<double> per_light_255;
+};
+
+// One way to relight a stack.
+struct MethodEvidence {
+  std::string
+      name;  // "lambert", "model", "ptm", "sh9", "sh9-residual", "realis", "realis-k4", "realis-8bit", ...
+  int lobes = 0;  // of Realis
+  int dominant = 0;
+  int bits = 0;  // 0: not rounded
+  double bytes_per_texel = 0.0;
+  StackErrors train;
+  StackErrors held_out;
+};
+
+struct EvidenceOptions {
+  int folds = 0;                         // 0: each light by itself up to 24 lights, else folds of about ten
+  std::vector<int> other_lobes{4};       // Realis with these numbers of lobes too
+  bool compressed = true;                // with 8 and 4 bits, and with half of the lobes per texel
+  std::function<void(double)> progress;  // the share that is done, in [0, 1]; may be empty
+};
+
+struct Evidence {
+  int folds = 0;
+  std::size_t texels = 0;  // looked at
+  std::vector<MethodEvidence> methods;
+  const MethodEvidence* find(const std::string& name) const;
+};
+
+// For every fold everything is planned and baked without its lights: normals, albedo, gains, material, lobes,
+// ridge and which texels are corrected; a held-out light has its manifest intensity. sample: texels with all
+// lights. plan: that of all lights, for the training errors.
+Evidence evaluate(const StackInfo& info, const TexelBlock& sample, const BakePlan& plan,
+                  const BakeSettings& settings, const EvidenceOptions& options = {});
+
+// Fold f of count: lights f, f + count, f + 2 count, ...: neighbours of a spiral are in different folds.
+LightChoice held_out_lights(std::size_t lights, int fold, int count);
+int fold_count(std::size_t lights, int asked);
+
+}  // namespace brdfit::bake
+
+#endif  // BRDFIT_BAKE_EVIDENCE_H_

@@ -1,0 +1,217 @@
+#include "bake/plan.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <numeric>
+#include <stdexcept>
+#include <utility>
+
+#include "bake/luminance.h"
+#include "bake/ridge.h"
+
+namespace brdfit::bake {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) {
+  return std::chrono::duration<double>(Clock::now() - start).count();
+}
+
+std::vector<Vec3> directions_of(const StackInfo& info) {
+  std::vector<Vec3> directions;
+  for (const StackLight& light : info.lights) directions.push_back(light.direction);
+  return directions;
+}
+
+std::vector<float> shades_of(const StackInfo& info, const TexelBlock& block, const Surface& surface) {
+  const std::size_t texels = block.count();
+  std::vector<float> shade(info.lights.size() * texels);
+  for (std::size_t light = 0; light < info.lights.size(); ++light) {
+    for (std::size_t k = 0; k < texels; ++k) {
+      const Incidence from = incidence(info, light, block.texels[k]);
+      const double cos_i = from.direction.x * static_cast<double>(surface.normals[k]) +
+                           from.direction.y * static_cast<double>(surface.normals[texels + k]) +
+                           from.direction.z * static_cast<double>(surface.normals[2 * texels + k]);
+      shade[light * texels + k] = static_cast<float>(from.falloff * std::max(cos_i, 0.0));
+    }
+  }
+  return shade;
+}
+
+// Numbers of lobes to choose from where none is asked for.
+const std::vector<int> kLobeCounts = {2, 4, 6, 8, 12, 16};
+
+}  // namespace
+
+bool BakeSettings::is_valid(std::string* why) const {
+  if (lobes >= 0 && lobes <= kMaxLobes) return true;
+  if (why != nullptr) *why = fmt::format("lobes is {}, not in [0, {}]", lobes, kMaxLobes);
+  return false;
+}
+
+StackInfo with_lights(const StackInfo& info, const LightChoice& lights) {
+  StackInfo out = info;
+  out.lights.clear();
+  for (const std::uint32_t light : lights) out.lights.push_back(info.lights[light]);
+  return out;
+}
+
+TexelBlock with_lights(const TexelBlock& block, const LightChoice& lights) {
+  TexelBlock out;
+  out.texels = block.texels;
+  out.lights = lights.size();
+  out.normals = block.normals;
+  out.albedo = block.albedo;
+  const auto plane = static_cast<std::ptrdiff_t>(block.count());
+  for (const std::uint32_t light : lights) {
+    const auto from = block.rgb.begin() + static_cast<std::ptrdiff_t>(light) * 3 * plane;
+    out.rgb.insert(out.rgb.end(), from, from + 3 * plane);
+    if (block.weight.empty()) continue;
+    const auto weight = block.weight.begin() + static_cast<std::ptrdiff_t>(light) * plane;
+    out.weight.insert(out.weight.end(), weight, weight + plane);
+  }
+  return out;
+}
+
+BlockRender render_of(const StackInfo& info, const TexelBlock& block, const Surface& surface,
+                      const LightChoice& lights, const BaseModel& base, bool albedo_in_modulation) {
+  BlockRender render;
+  render.rgb = render_block(info, block, surface, lights, base);
+  render.shade = shades_of(with_lights(info, lights), block, surface);
+  if (albedo_in_modulation) render.albedo = surface.albedo;
+  return render;
+}
+
+namespace {
+
+// Normals and albedo, and the base model's own colours.
+Surface surface_of(const StackInfo& info, const TexelBlock& block, const BaseModel& base) {
+  const LightChoice all = all_lights(info);
+  return with_base_colour(info, block, photometric_stereo(info, block, all), all, base);
+}
+
+std::vector<TexelProblem> problems_of(const StackInfo& info, const TexelBlock& block,
+                                      const BlockRender& render, RealisColour colour) {
+  std::vector<TexelProblem> problems;
+  if (colour != RealisColour::kRgb) {
+    problems.push_back(luminance_problem(info, block, render));
+  } else {
+    for (TexelProblem& problem : rgb_problems(info, block, render)) problems.push_back(std::move(problem));
+  }
+  return problems;
+}
+
+}  // namespace
+
+void plan_lobes(BakePlan& plan, const StackInfo& info, const TexelBlock& sample,
+                const BakeSettings& settings) {
+  plan.system.reset();
+  const std::vector<Vec3> directions = directions_of(info);
+  const auto problem_of = [&](std::span<const std::size_t> training) {
+    const LightChoice kept(training.begin(), training.end());
+    const StackInfo seen = with_lights(info, kept);
+    const Surface surface = surface_of(seen, with_lights(sample, kept), plan.base);
+    return luminance_problem(
+        info, sample,
+        render_of(info, sample, surface, all_lights(info), plan.base, settings.albedo_in_modulation));
+  };
+  if (settings.given_lobes) {
+    std::vector<std::size_t> all(info.lights.size());
+    std::iota(all.begin(), all.end(), std::size_t{0});
+    const TexelProblem problem = problem_of(all);
+    const RidgeChoice ridge = choose_ridge(*settings.given_lobes, directions, problem);
+    if (ridge.helps()) {
+      plan.system.emplace(*settings.given_lobes, directions, mean_squared_modulation(problem), ridge.ridge);
+    }
+  } else if (info.lights.size() >= 2) {
+    ChoiceOptions options;
+    options.counts = settings.lobes == 0 ? kLobeCounts : std::vector<int>{settings.lobes};
+    options.optimise = settings.optimise;
+    options.search.seed = settings.seed;
+    options.classes.seed = settings.seed;
+    plan.lobe_choice = choose_lobes(problem_of, directions, options);
+    const LobeChoice& choice = *plan.lobe_choice;
+    if (!choice.lobes.empty())
+      plan.system.emplace(choice.lobes, directions, choice.squared_modulation, choice.ridge);
+  }
+  if (!plan.system) {
+    plan.notes.emplace_back(
+        "no lobes lower the error under lights that they have not seen: nothing is corrected");
+  }
+}
+
+namespace {
+
+// Gains and the base model, by held-out error where the choice is left open.
+void plan_base(BakePlan& plan, const StackInfo& info, const TexelBlock& sample,
+               const BakeSettings& settings) {
+  const LightChoice all = all_lights(info);
+  if (settings.base == BaseKind::kAuto) {
+    ChooseBaseOptions options;
+    options.models = {Model::kLambertGgx};
+    if (settings.model != Model::kLambertGgx) options.models.push_back(settings.model);
+    options.with_gains = settings.gains;
+    BaseChoice choice = choose_base_model(info, sample, all, options);
+    plan.base = choice.fit.model;
+    plan.candidates = std::move(choice.candidates);
+    if (choice.chosen > 0) plan.material = std::move(choice.fit);
+    if (settings.gains) plan.gain_estimate = std::move(choice.gains);
+    return;
+  }
+  if (settings.gains) plan.gain_estimate = estimate_gains(info, sample, all);
+  if (settings.base == BaseKind::kLambert) return;
+  const StackInfo lit = plan.gain_estimate ? with_gains(info, plan.gain_estimate->gain) : info;
+  SharedMaterialOptions options;
+  options.model = settings.model;
+  options.effects = effects_of(settings.model);
+  plan.material = fit_shared_material(lit, sample, photometric_stereo(lit, sample, all), all, options);
+  plan.base = plan.material->model;
+}
+
+}  // namespace
+
+BakePlan plan_bake(const StackInfo& whole, const TexelBlock& whole_sample, const LightChoice& lights,
+                   const BakeSettings& settings) {
+  std::string why;
+  if (!settings.is_valid(&why)) throw std::invalid_argument("BakeSettings: " + why);
+  BakePlan plan;
+  plan.lights = lights;
+  plan.gains.assign(whole.lights.size(), 1.0);
+  const TexelBlock sample = with_lights(whole_sample, lights);
+  Clock::time_point start = Clock::now();
+  plan_base(plan, with_lights(whole, lights), sample, settings);
+  for (std::size_t k = 0; plan.gain_estimate && k < lights.size(); ++k) {
+    plan.gains[lights[k]] = plan.gain_estimate->gain[k];
+  }
+  plan.timings.base_seconds = seconds_since(start);
+  const StackInfo info = with_lights(with_gains(whole, plan.gains), lights);
+  start = Clock::now();
+  plan_lobes(plan, info, sample, settings);
+  plan.timings.lobes_seconds = seconds_since(start);
+  return plan;
+}
+
+BakedBlock bake_block(const StackInfo& whole, const TexelBlock& whole_block, const BakePlan& plan,
+                      const BakeSettings& settings) {
+  const StackInfo info = with_lights(with_gains(whole, plan.gains), plan.lights);
+  const TexelBlock block = with_lights(whole_block, plan.lights);
+  BakedBlock baked;
+  baked.surface = surface_of(info, block, plan.base);
+  const BlockRender render =
+      render_of(info, block, baked.surface, all_lights(info), plan.base, settings.albedo_in_modulation);
+  baked.problems = problems_of(info, block, render, settings.colour);
+  if (!plan.system) return baked;
+  for (const TexelProblem& problem : baked.problems) baked.solved.push_back(solve(*plan.system, problem));
+  if (settings.colour != RealisColour::kScaledChroma) return baked;
+  const auto channels = rgb_problems(info, block, render);
+  baked.chroma = chroma_scales(
+      channels, lobe_sums(plan.system->lobes(), plan.system->directions(), baked.problems[0].directions,
+                          baked.solved[0].amplitudes, block.count()));
+  return baked;
+}
+
+}  // namespace brdfit::bake

@@ -1,0 +1,423 @@
+#include "bake/shared_material.h"
+
+#include <tbb/parallel_for.h>
+
+#include <Eigen/Core>
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <map>
+#include <stdexcept>
+#include <string_view>
+
+#include "bake/luminance.h"
+#include "brdf/simd/dispatch.h"
+#include "fit/parameters.h"
+#include "fit/solve.h"
+
+namespace brdfit::simd {
+BRDFIT_DECLARE_SIMD(void affine_chunk(const bake::AffineJob<double>&))
+bake::AffineFunction affine_function(Isa isa) {
+  return BRDFIT_PICK(isa, affine_chunk);
+}
+}  // namespace brdfit::simd
+
+namespace brdfit::bake {
+namespace {
+
+// A material at both ends of its base colour.
+struct Ends {
+  simd::Coefficients black;
+  simd::Coefficients white;
+};
+
+Ends ends_of(Material material) {
+  Ends ends;
+  material.set("base_color", 0.0);
+  ends.black = simd::coefficients_of(material);
+  material.set("base_color", 1.0);
+  ends.white = simd::coefficients_of(material);
+  return ends;
+}
+
+// The sample in double precision, chunk by chunk.
+struct Chunk {
+  std::vector<double> at_texels;
+  std::array<double, 3 * kChunk> normals;
+  std::vector<double> value;        // [light][channel][kChunk]
+  std::vector<double> sqrt_weight;  // [light][kChunk]
+};
+
+// Residuals as functions of the shared parameters, base colours solved inside.
+class Projection {
+ public:
+  Projection(const StackInfo& info, const TexelBlock& block, const Surface& surface,
+             const LightChoice& lights, double width)
+      : view_(info.view),
+        texels_(block.texels),
+        lights_(lights.size()),
+        columns_(info, lights),
+        width_(width),
+        affine_(simd::affine_function(simd::best_isa())) {
+    for (std::size_t first = 0; first < block.count(); first += kChunk) {
+      add_chunk(block, surface, lights, first);
+    }
+  }
+
+  double cost(const Ends& ends) const {
+    std::vector<double> costs(chunks_.size());
+    tbb::parallel_for(std::size_t{0}, chunks_.size(), [&](std::size_t k) {
+      Eigen::VectorXd r(rows());
+      residuals(k, ends, r.data());
+      costs[k] = 0.5 * r.squaredNorm();
+    });
+    double sum = 0.0;
+    for (const double chunk : costs) sum += chunk;
+    return sum;
+  }
+
+  // at: the material at x. around: two materials and their distance for each derivative.
+  struct Difference {
+    Ends below;
+    Ends above;
+    double width;
+  };
+  Eigen::MatrixXd gram(const Ends& at, const std::vector<Difference>& around, double* cost) const {
+    const auto n = static_cast<Eigen::Index>(around.size());
+    std::vector<Eigen::MatrixXd> grams(chunks_.size());
+    tbb::parallel_for(std::size_t{0}, chunks_.size(), [&](std::size_t k) {
+      Eigen::MatrixXd j(rows(), n + 1);
+      Eigen::VectorXd below(rows());
+      for (Eigen::Index p = 0; p < n; ++p) {
+        const Difference& difference = around[static_cast<std::size_t>(p)];
+        residuals(k, difference.above, j.col(p).data());
+        residuals(k, difference.below, below.data());
+        j.col(p) = (j.col(p) - below) / difference.width;
+      }
+      residuals(k, at, j.col(n).data());
+      grams[k] = j.transpose() * j;
+    });
+    Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(n + 1, n + 1);
+    for (const Eigen::MatrixXd& chunk : grams) sum += chunk;
+    if (cost != nullptr) *cost = 0.5 * sum(n, n);
+    return sum;
+  }
+
+ private:
+  Eigen::Index rows() const { return static_cast<Eigen::Index>(lights_ * 3 * kChunk); }
+
+  void add_chunk(const TexelBlock& block, const Surface& surface, const LightChoice& lights,
+                 std::size_t first) {
+    Chunk chunk;
+    copy_chunk(surface.normals, block.count(), first, chunk.normals.data());
+    chunk.value.resize(lights_ * 3 * kChunk);
+    chunk.sqrt_weight.resize(lights_ * kChunk);
+    const std::size_t length = std::min(kChunk, block.count() - first);
+    for (std::size_t k = 0; k < lights_; ++k) {
+      for (std::size_t t = 0; t < length; ++t) {
+        const double weight = block.weight_of(lights[k], first + t);
+        chunk.sqrt_weight[k * kChunk + t] = std::sqrt(weight);
+        for (std::size_t c = 0; c < 3; ++c) {
+          const double value = weight > 0.0 ? block.plane(lights[k], c)[first + t] : 0.0;
+          chunk.value[(3 * k + c) * kChunk + t] = value;
+        }
+      }
+    }
+    chunks_.push_back(std::move(chunk));
+  }
+
+  // Robust residuals of a chunk: r sqrt(2 / (sqrt(1 + t^2) + 1)) with t = r / width, whose squares are twice
+  // the pseudo-Huber costs.
+  void residuals(std::size_t k, const Ends& ends, double* r) const {
+    const Chunk& chunk = chunks_[k];
+    const std::size_t size = lights_ * 3 * kChunk;
+    thread_local std::vector<double> affine;
+    thread_local std::vector<double> at_texels;
+    affine.resize(2 * size);
+    AffineJob<double> job;
+    const std::size_t first = k * kChunk;
+    job.lights = columns_.columns(std::span(texels_).subspan(first, std::min(kChunk, texels_.size() - first)),
+                                  at_texels);
+    job.black = ends.black;
+    job.white = ends.white;
+    job.normals = chunk.normals.data();
+    job.view[0] = view_.x;
+    job.view[1] = view_.y;
+    job.view[2] = view_.z;
+    job.offset = affine.data();
+    job.slope = affine.data() + size;
+    affine_(job);
+    for (std::size_t c = 0; c < 3; ++c) solve_channel(chunk, job, c, r);
+  }
+
+  void solve_channel(const Chunk& chunk, const AffineJob<double>& job, std::size_t c, double* r) const {
+    constexpr int kRounds = 3;
+    const double inverse_squared = 1.0 / (width_ * width_);
+    std::array<double, kChunk> base{};
+    for (int round = 0; round <= kRounds; ++round) {
+      std::array<double, kChunk> top{};
+      std::array<double, kChunk> bottom{};
+      for (std::size_t light = 0; light < lights_; ++light) {
+        const double* offset = job.offset + (3 * light + c) * kChunk;
+        const double* slope = job.slope + (3 * light + c) * kChunk;
+        const double* value = chunk.value.data() + (3 * light + c) * kChunk;
+        const double* root = chunk.sqrt_weight.data() + light * kChunk;
+        double* out = r + (3 * light + c) * kChunk;
+        if (round == kRounds) {
+          for (std::size_t t = 0; t < kChunk; ++t) {
+            const double residual = root[t] * (value[t] - offset[t] - slope[t] * base[t]);
+            out[t] =
+                residual * std::sqrt(2.0 / (std::sqrt(1.0 + residual * residual * inverse_squared) + 1.0));
+          }
+          continue;
+        }
+        const double share = round == 0 ? 0.0 : inverse_squared;
+        for (std::size_t t = 0; t < kChunk; ++t) {
+          const double rest = value[t] - offset[t];
+          const double residual = root[t] * (rest - slope[t] * base[t]);
+          const double w = root[t] * root[t] / std::sqrt(1.0 + residual * residual * share);
+          top[t] += w * slope[t] * rest;
+          bottom[t] += w * slope[t] * slope[t];
+        }
+      }
+      if (round == kRounds) break;
+      for (std::size_t t = 0; t < kChunk; ++t) {
+        base[t] = std::max(top[t], 0.0) / std::max(bottom[t], 1e-30);
+      }
+    }
+  }
+
+  Vec3 view_;
+  std::vector<std::uint32_t> texels_;
+  std::size_t lights_;
+  ChunkLightsOf<double> columns_;
+  double width_;
+  AffineFunction affine_;
+  std::vector<Chunk> chunks_;
+};
+
+// The free numbers of a model on a projection, as solve() takes them.
+class SharedFit {
+ public:
+  SharedFit(const Projection& projection, const SharedMaterialOptions& options, Effects effects)
+      : projection_(projection) {
+    Material start(options.model);
+    start.options() = options.material_options;
+    fit::FreedomOptions freedom;
+    freedom.tier = options.tier;
+    freedom.effects = effects;
+    freedom.fixed["base_color"] = {0.5};
+    for (const ParameterInfo& row : parameters_of(options.model)) {
+      const bool tint = row.kind == Kind::kTint || row.name == "sheen_tint";
+      if (!tint || !effects.has(row.effect)) continue;
+      freedom.fixed[std::string(row.name)] = {row.name == "sheen_tint" ? 0.0 : 1.0};
+    }
+    parametrisation_ = fit::make_parametrisation(start, freedom);
+  }
+
+  const fit::Parametrisation& parametrisation() const { return parametrisation_; }
+
+  fit::Objective objective() const {
+    return {[this](std::span<const double> x) { return projection_.cost(ends(x)); },
+            [this](std::span<const double> x, double* cost) { return gram(x, cost); }};
+  }
+
+  Eigen::MatrixXd gram(std::span<const double> x, double* cost) const {
+    constexpr double kStep = 1e-4;
+    std::vector<Projection::Difference> around;
+    for (std::size_t k = 0; k < x.size(); ++k) {
+      const fit::FreeParameter& parameter = parametrisation_.free[k];
+      const double step = kStep * parametrisation_.scale(k, x[k]);
+      std::vector<double> below(x.begin(), x.end());
+      std::vector<double> above = below;
+      below[k] = std::max(x[k] - step, parameter.lower);
+      above[k] = std::min(x[k] + step, parameter.upper);
+      around.push_back({ends(below), ends(above), above[k] - below[k]});
+    }
+    return projection_.gram(ends(x), around, cost);
+  }
+
+  Material material(std::span<const double> x) const { return parametrisation_.to_material(x); }
+
+  fit::Solution solve(const std::vector<double>& x, int max_iterations) const {
+    fit::SolveOptions options;
+    options.max_iterations = max_iterations;
+    return fit::solve_pinning(objective(), x, fit::full_box(parametrisation_), options);
+  }
+
+ private:
+  Ends ends(std::span<const double> x) const { return ends_of(parametrisation_.to_material(x)); }
+
+  const Projection& projection_;
+  fit::Parametrisation parametrisation_;
+};
+
+using Values = std::map<std::string_view, double>;
+
+// Off the neutral values, at which falloffs have no gradient; the sign turns those with two sides.
+Values off_neutral(double sign) {
+  return {{"metallic", 0.1},
+          {"specular", 0.5},
+          {"diffuse_fresnel", 1.0 + 0.5 * sign},
+          {"retroreflection", 1.0 + 0.5 * sign},
+          {"diffuse_fresnel_falloff", 0.75},
+          {"retroreflection_falloff", 0.75},
+          {"smooth_terminator", -0.3 * sign},
+          {"specular_fresnel_falloff", 0.4},
+          {"dual_specular_opacity", 0.3},
+          {"dual_specular_roughness_scale", 2.5},
+          {"subsurface", 0.3},
+          {"sheen", 0.3},
+          {"clearcoat", 0.3},
+          {"clearcoat_gloss", 0.7}};
+}
+
+std::vector<double> start_of(const fit::Parametrisation& parametrisation, const Values& values) {
+  std::vector<double> x;
+  for (const fit::FreeParameter& parameter : parametrisation.free) {
+    const auto at = values.find(parameter.parameter);
+    const double value =
+        at != values.end()
+            ? at->second
+            : find_parameter(parametrisation.start.model(), parameter.parameter)->default_value;
+    x.push_back(std::clamp(value, parameter.lower, parameter.upper));
+  }
+  return x;
+}
+
+fit::Solution best_of(const SharedFit& fit, const std::vector<Values>& starts, int max_iterations) {
+  fit::Solution best;
+  for (const Values& start : starts) {
+    fit::Solution solution = fit.solve(start_of(fit.parametrisation(), start), max_iterations);
+    if (best.x.empty() || solution.cost < best.cost) best = std::move(solution);
+  }
+  return best;
+}
+
+// Texels with a normal of their own and some light, thinned evenly.
+TexelBlock sample_of(const TexelBlock& block, const Surface& surface, std::size_t at_most, Surface& sampled) {
+  std::vector<std::uint32_t> usable;
+  for (std::size_t t = 0; t < block.count(); ++t) {
+    if (surface.state[t] == TexelState::kOk) usable.push_back(static_cast<std::uint32_t>(t));
+  }
+  std::vector<std::uint32_t> chosen;
+  const std::size_t count = std::min(at_most, usable.size());
+  for (std::size_t k = 0; k < count; ++k) chosen.push_back(usable[k * usable.size() / count]);
+  sampled = chosen_texels(surface, chosen);
+  return chosen_texels(block, chosen);
+}
+
+// The robust standard deviation of Lambert's residuals.
+double lambert_deviation(const StackInfo& info, const TexelBlock& block, const Surface& surface,
+                         const LightChoice& lights) {
+  const std::vector<float> render = render_block(info, block, surface, lights, {});
+  std::vector<float> residuals;
+  double sum = 0.0;
+  for (std::size_t k = 0; k < lights.size(); ++k) {
+    for (std::size_t t = 0; t < block.count(); ++t) {
+      if (block.weight_of(lights[k], t) <= 0.0F) continue;
+      for (std::size_t c = 0; c < 3; ++c) {
+        const float value = block.plane(lights[k], c)[t];
+        sum += std::abs(value);
+        residuals.push_back(std::abs(value - render[(3 * k + c) * block.count() + t]));
+      }
+    }
+  }
+  if (residuals.empty()) return 1.0;
+  const auto middle = residuals.begin() + static_cast<std::ptrdiff_t>(residuals.size() / 2);
+  std::ranges::nth_element(residuals, middle);
+  return std::max(
+      {1.4826 * static_cast<double>(*middle), 1e-4 * sum / static_cast<double>(residuals.size()), 1e-12});
+}
+
+Rgb mean_colour(const Surface& surface) {
+  Rgb mean = {0.0, 0.0, 0.0};
+  for (std::size_t c = 0; c < 3; ++c) {
+    for (std::size_t t = 0; t < surface.count(); ++t) mean[c] += surface.albedo[c * surface.count() + t];
+    mean[c] = std::clamp(mean[c] / static_cast<double>(surface.count()), 0.0, 1.0);
+  }
+  return mean;
+}
+
+Effects usable_effects(const SharedMaterialOptions& options) {
+  return Effects(options.effects.bits() & effects_of(options.model).bits())
+      .without(Effect::kAnisotropic)
+      .without(Effect::kSpecularTint);
+}
+
+}  // namespace
+
+bool SharedMaterialOptions::is_valid(std::string* why) const {
+  const auto fails = [why](const char* reason) {
+    if (why != nullptr) *why = reason;
+    return false;
+  };
+  if (!(robust_width > 0.0)) return fails("robust_width must be positive");
+  if (values == 0) return fails("values must be positive");
+  if (max_iterations < 1) return fails("max_iterations must be positive");
+  return true;
+}
+
+SharedMaterial fit_shared_material(const StackInfo& info, const TexelBlock& block, const Surface& surface,
+                                   const LightChoice& lights, const SharedMaterialOptions& options) {
+  std::string why;
+  if (!options.is_valid(&why)) throw std::invalid_argument("fit_shared_material: " + why);
+  if (surface.count() != block.count() || block.lights != info.lights.size()) {
+    throw std::invalid_argument("fit_shared_material: sizes disagree");
+  }
+  constexpr std::size_t kFewestTexels = 192;
+  const std::size_t per_texel = std::max<std::size_t>(3 * lights.size(), 1);
+  SharedMaterial result;
+  Surface sampled;
+  const TexelBlock sample =
+      sample_of(block, surface, std::max(kFewestTexels, options.values / per_texel), sampled);
+  result.texels = sample.count();
+  if (sample.count() == 0 || lights.empty()) {
+    result.termination = "no texel has a normal of its own";
+    return result;
+  }
+  result.lambert_rmse = luminance_rmse(sample, render_block(info, sample, sampled, lights, {}), lights);
+  result.rmse = result.lambert_rmse;
+  const double width = options.robust_width * lambert_deviation(info, sample, sampled, lights);
+  const Projection projection(info, sample, sampled, lights, width);
+
+  // The plain highlight first: it tells where the refinements of a model begin.
+  const SharedFit plain(projection, options, Effects());
+  std::vector<Values> starts;
+  for (const double roughness : {0.15, 0.35, 0.7}) {
+    starts.push_back(off_neutral(1.0));
+    starts.back()["roughness"] = roughness;
+  }
+  fit::Solution solution = best_of(plain, starts, options.max_iterations);
+  Material material = plain.material(solution.x);
+  const SharedFit full(projection, options, usable_effects(options));
+  const SharedFit* chosen = &plain;
+  if (full.parametrisation().size() > plain.parametrisation().size()) {
+    starts.clear();
+    for (const double sign : {1.0, -1.0}) {
+      starts.push_back(off_neutral(sign));
+      for (const char* name : {"metallic", "specular", "roughness"})
+        starts.back()[name] = material.number(name);
+    }
+    fit::Solution refined = best_of(full, starts, options.max_iterations);
+    if (refined.cost < solution.cost) {
+      solution = std::move(refined);
+      material = full.material(solution.x);
+      chosen = &full;
+    }
+  }
+  result.model = {material, width};
+  result.converged = solution.converged;
+  result.termination = solution.termination;
+  result.iterations = solution.iterations;
+  const Surface coloured = with_base_colour(info, sample, sampled, lights, result.model);
+  result.rmse = luminance_rmse(sample, render_block(info, sample, coloured, lights, result.model), lights);
+  result.model.material->set("base_color", mean_colour(coloured));
+  const fit::Identifiability seen =
+      fit::identify(chosen->parametrisation(), solution.x, chosen->gram(solution.x, nullptr));
+  result.parameters = fit::public_states(chosen->parametrisation(), solution.x, seen);
+  std::erase_if(result.parameters, [](const auto& state) { return state.name == "base_color"; });
+  return result;
+}
+
+}  // namespace brdfit::bake

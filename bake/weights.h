@@ -1,0 +1,42 @@
+// What a value counts: sensor noise, saturation, and weights that a user or another stage supplies. All of
+// them multiply into the weights of a block.
+#ifndef BRDFIT_BAKE_WEIGHTS_H_
+#define BRDFIT_BAKE_WEIGHTS_H_
+
+#include <limits>
+#include <span>
+#include <string>
+
+#include "measured/image_stack.h"
+
+namespace brdfit::bake {
+
+// A camera's noise: the variance of a value v is read_deviation^2 + shot v, where v is what the sensor saw,
+// that is the radiance times the picture's exposure.
+struct SensorNoise {
+  double read_deviation = 0.0;  // of darkness, in units of v
+  double shot = 0.0;            // variance per value, in units of v: 1 / (electrons per unit of v)
+  // From `knee` x saturation on values lose weight, and from saturation on they have none.
+  double saturation = std::numeric_limits<double>::infinity();  // in units of v
+  double knee = 0.95;
+
+  bool is_valid(std::string* why) const;
+};
+
+// The weight of a sensor value in (0, 1] by its noise, 1 where the variance is that of darkness (of a
+// hundredth of full scale where there is no read noise), times that of saturation in [0, 1]. Without noise
+// parameters 1 below the knee.
+double noise_weight(const SensorNoise& noise, double value);
+
+// Multiplies the weights of all values of a block. The brightest channel counts. exposure: what radiances of
+// each light's picture are multiplied by to be sensor values; empty: 1. Throws std::invalid_argument where
+// sizes disagree or the noise is invalid.
+void weigh_by_noise(TexelBlock& block, const SensorNoise& noise, std::span<const double> exposure = {});
+
+// Multiplies the weights of one light by a map over the whole picture (index y * width + x), in [0, 1].
+// Throws std::invalid_argument where the map is too small, or a value is outside [0, 1] or not finite.
+void weigh_by_map(TexelBlock& block, std::size_t light, std::span<const float> map);
+
+}  // namespace brdfit::bake
+
+#endif  // BRDFIT_BAKE_WEIGHTS_H_
