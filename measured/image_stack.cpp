@@ -56,11 +56,25 @@ bool has_near_lights(const StackInfo& info) {
                      [](const StackLight& light) { return light.position.has_value(); });
 }
 
+TexelBlock ImageStack::read_luminance(int first_row, int rows) {
+  TexelBlock block = read_rows(first_row, rows);
+  std::vector<float> luminance(block.lights * block.count());
+  for (std::size_t light = 0; light < block.lights; ++light) {
+    const auto red = block.plane(light, 0), green = block.plane(light, 1), blue = block.plane(light, 2);
+    for (std::size_t k = 0; k < block.count(); ++k) {
+      luminance[light * block.count() + k] = 0.2126F * red[k] + 0.7152F * green[k] + 0.0722F * blue[k];
+    }
+  }
+  block.rgb = std::move(luminance);
+  block.channels = 1;
+  return block;
+}
+
 MemoryStack::MemoryStack(StackInfo info, TexelBlock block)
     : info_(std::move(info)), block_(std::move(block)) {
   const std::size_t texels = info_.texel_count();
   const std::size_t lights = info_.lights.size();
-  const bool fits = block_.count() == texels && block_.lights == lights &&
+  const bool fits = block_.count() == texels && block_.lights == lights && block_.channels == 3 &&
                     block_.rgb.size() == lights * 3 * texels &&
                     (block_.weight.empty() || block_.weight.size() == lights * texels) &&
                     block_.normals.size() == (info_.has_normals ? 3 * texels : 0) &&

@@ -60,18 +60,19 @@ bool has_near_lights(const StackInfo& info);
 struct TexelBlock {
   std::vector<std::uint32_t> texels;  // index y * width + x of each
   std::size_t lights = 0;
-  std::vector<float> rgb;     // [light][channel][texel], linear, finite
-  std::vector<float> weight;  // [light][texel] in [0, 1]: 0 where a value cannot be used (not finite,
-                              // saturated, masked). Empty: all 1.
+  std::vector<float> rgb;      // [light][channel][texel], linear, finite
+  std::vector<float> weight;   // [light][texel] in [0, 1]: 0 where a value cannot be used (not finite,
+                               // saturated, masked). Empty: all 1.
   std::vector<float> normals;  // [3][texel], unit; empty unless the stack has them
   std::vector<float> albedo;   // [channel][texel]; empty unless the stack has it
+  std::size_t channels = 3;    // of rgb; 1 where it holds luminance alone
 
   std::size_t count() const { return texels.size(); }
   std::span<float> plane(std::size_t light, std::size_t channel) {
-    return std::span(rgb).subspan((light * 3 + channel) * count(), count());
+    return std::span(rgb).subspan((light * channels + channel) * count(), count());
   }
   std::span<const float> plane(std::size_t light, std::size_t channel) const {
-    return std::span(rgb).subspan((light * 3 + channel) * count(), count());
+    return std::span(rgb).subspan((light * channels + channel) * count(), count());
   }
   float weight_of(std::size_t light, std::size_t texel) const {
     return weight.empty() ? 1.0F : weight[light * count() + texel];
@@ -86,6 +87,9 @@ class ImageStack {
   // The texels of rows [first_row, first_row + rows) under every light. Throws what the source throws when it
   // cannot be read. Not to be called from two threads at once; decodes in parallel inside.
   virtual TexelBlock read_rows(int first_row, int rows) = 0;
+  // The same with luminance (ITU-R BT.709) in place of colours: channels is 1. A third of the memory, and
+  // cheaper where pictures are decoded.
+  virtual TexelBlock read_luminance(int first_row, int rows);
   // Any texels (ascending indices), in one pass over the pictures.
   virtual TexelBlock read_texels(std::span<const std::uint32_t> texels) = 0;
 };

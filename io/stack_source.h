@@ -1,0 +1,56 @@
+// What an OLAT manifest (olat.json) or a light file (.lp) says: pictures, lights, and how to read them.
+#ifndef BRDFIT_IO_STACK_SOURCE_H_
+#define BRDFIT_IO_STACK_SOURCE_H_
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "io/colour_chart.h"
+#include "io/transfer.h"
+#include "measured/image_stack.h"
+
+namespace brdfit::io {
+
+// One picture and its light.
+struct StackPicture {
+  std::filesystem::path file;
+  StackLight light;  // a near light's direction is filled in when the pictures' size is known
+  std::optional<double> exposure_seconds;  // > 0
+};
+
+struct StackSource {
+  std::filesystem::path file;          // the manifest or light file
+  std::string name;                    // of that file, without its ending
+  std::vector<StackPicture> pictures;  // sorted by file name, whatever the order in the file was
+  std::optional<std::filesystem::path> dark;
+  std::optional<std::filesystem::path> flat;
+  std::optional<std::filesystem::path> mask;
+  std::optional<std::filesystem::path> normals;
+  std::optional<std::filesystem::path> albedo;
+  std::optional<Transfer> transfer;  // nothing: as each picture says, else as is usual
+  Matrix3 color_matrix = kIdentity3;
+  std::optional<double> chart_rms;  // where the matrix was computed from a chart
+  Vec3 view{0.0, 0.0, 1.0};
+  ImagePlane plane;
+  std::string units;  // of positions, pixel_size and origin; empty where there are none
+};
+
+// A file by its ending: .lp, or JSON. Throws IoError (kInput), always one line: what cannot be read or
+// parsed, unknown keys, a wrong count, pictures that are not there or named twice, a light that is below the
+// surface plane or has no direction, exposures that only some pictures have, positions without pixel_size and
+// origin.
+StackSource read_stack_source(const std::filesystem::path& file);
+
+// As read_stack_source, for each format. See docs/schema/olat.schema.json.
+StackSource read_olat(const std::filesystem::path& file);
+
+// First line a count, then `file x y z` per picture, where the file's name may hold spaces. A picture is
+// looked for where the line says, from the light file's folder, and else under its bare name in that folder:
+// light files often keep the paths of the machine that they were made on. Directions need not be unit.
+StackSource read_light_positions(const std::filesystem::path& file);
+
+}  // namespace brdfit::io
+
+#endif  // BRDFIT_IO_STACK_SOURCE_H_
