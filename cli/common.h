@@ -48,6 +48,8 @@ Command add_slice_command(CLI::App& program);
 Command add_sphere_command(CLI::App& program);
 Command add_compare_command(CLI::App& program);
 Command add_report_command(CLI::App& program);
+Command add_bake_command(CLI::App& program);
+Command add_relight_command(CLI::App& program);
 Command add_synth_command(CLI::App& program);
 Command add_export_command(CLI::App& program);
 Command add_demo_command(CLI::App& program);

@@ -1,0 +1,248 @@
+#include "cli/asset_files.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <utility>
+
+#include "io/image_reader.h"
+#include "io/material_json.h"
+#include "io/png_rows.h"
+
+namespace brdfit::cli {
+namespace {
+
+const std::vector<std::string> kSurfaceChannels = {"albedo.R", "albedo.G", "albedo.B",
+                                                   "normal.X", "normal.Y", "normal.Z"};
+const std::vector<std::string> kChromaChannels = {"R", "G", "B"};
+
+std::uint8_t byte_of(double share) {
+  return static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(share, 0.0, 1.0)));
+}
+
+// [channel][texel] to interleaved bytes.
+template <class Encode>
+std::vector<std::uint8_t> interleaved(std::span<const float> planes, std::size_t channels, Encode&& encode) {
+  const std::size_t count = planes.size() / channels;
+  std::vector<std::uint8_t> bytes(planes.size());
+  for (std::size_t c = 0; c < channels; ++c) {
+    for (std::size_t k = 0; k < count; ++k)
+      bytes[k * channels + c] = encode(static_cast<double>(planes[c * count + k]));
+  }
+  return bytes;
+}
+
+std::uint8_t srgb_byte(double linear) {
+  return static_cast<std::uint8_t>(io::srgb8_from_linear(std::clamp(linear, 0.0, 1.0)));
+}
+
+}  // namespace
+
+bake::PackLayout layout_of(const RealisAsset& asset) {
+  return {static_cast<int>(asset.lobes.size()), asset.colour == RealisColour::kRgb ? 3 : 1,
+          asset.packing.bits, asset.packing.dominant};
+}
+
+void name_asset_files(RealisAsset& asset) {
+  RealisFiles files;
+  const bool has_lobes = !asset.lobes.empty();
+  if (has_lobes) {
+    files.amplitudes = asset.name + ".amplitudes.exr";
+    for (int k = 0; k < layout_of(asset).textures(); ++k)
+      files.packed.push_back(fmt::format("{}.codes{}.png", asset.name, k));
+    if (layout_of(asset).mask_channels() > 0) files.dominant = asset.name + ".dominant.png";
+    if (asset.colour == RealisColour::kScaledChroma) files.chroma = asset.name + ".chroma.exr";
+  }
+  files.surface = asset.name + ".surface.exr";
+  files.albedo = asset.name + ".albedo.png";
+  files.normals = asset.name + ".normals.png";
+  files.confidence = asset.name + ".confidence.png";
+  asset.files = std::move(files);
+}
+
+std::vector<std::filesystem::path> asset_paths(const RealisAsset& asset,
+                                               const std::filesystem::path& folder) {
+  std::vector<std::filesystem::path> paths;
+  const RealisFiles& f = asset.files;
+  for (const std::string& name :
+       {f.amplitudes, f.dominant, f.chroma, f.surface, f.albedo, f.normals, f.confidence}) {
+    if (!name.empty()) paths.push_back(folder / name);
+  }
+  for (const std::string& name : f.packed) paths.push_back(folder / name);
+  return paths;
+}
+
+struct AssetWriter::State {
+  RealisAsset asset;
+  std::optional<io::ExrRowWriter> amplitudes;
+  std::optional<io::ExrRowWriter> chroma;
+  std::vector<std::unique_ptr<io::PngRowWriter>> packed;
+  std::optional<io::PngRowWriter> dominant;
+  std::optional<io::ExrRowWriter> surface;
+  std::optional<io::PngRowWriter> albedo;
+  std::optional<io::PngRowWriter> normals;
+  std::optional<io::PngRowWriter> confidence;
+};
+
+AssetWriter::AssetWriter(const RealisAsset& asset, const std::filesystem::path& folder, io::ExrDepth depth)
+    : state_(std::make_unique<State>()) {
+  State& s = *state_;
+  s.asset = asset;
+  const RealisFiles& files = asset.files;
+  const int width = asset.width;
+  const int height = asset.height;
+  if (!files.amplitudes.empty()) {
+    s.amplitudes.emplace(folder / files.amplitudes, width, height, realis_channel_names(asset), depth);
+  }
+  if (!files.chroma.empty())
+    s.chroma.emplace(folder / files.chroma, width, height, kChromaChannels, io::ExrDepth::kHalf);
+  for (const std::string& name : files.packed) {
+    s.packed.push_back(std::make_unique<io::PngRowWriter>(folder / name, width, height, 4));
+  }
+  if (!files.dominant.empty())
+    s.dominant.emplace(folder / files.dominant, width, height, layout_of(asset).mask_channels());
+  s.surface.emplace(folder / files.surface, width, height, kSurfaceChannels, io::ExrDepth::kFloat);
+  s.albedo.emplace(folder / files.albedo, width, height, 3);
+  s.normals.emplace(folder / files.normals, width, height, 3);
+  s.confidence.emplace(folder / files.confidence, width, height, 1);
+}
+
+AssetWriter::~AssetWriter() = default;
+
+void AssetWriter::write(const AssetRows& rows, int count) {
+  State& s = *state_;
+  if (s.amplitudes) s.amplitudes->write(rows.amplitudes, count);
+  if (s.chroma) s.chroma->write(rows.chroma, count);
+  if (!s.packed.empty()) {
+    const bake::PackedTexels packed = bake::pack(layout_of(s.asset), rows.codes, rows.masks);
+    for (std::size_t k = 0; k < s.packed.size(); ++k) s.packed[k]->write(packed.textures[k], count);
+    if (s.dominant) s.dominant->write(packed.mask, count);
+  }
+  std::vector<float> surface = rows.surface.albedo;
+  surface.insert(surface.end(), rows.surface.normals.begin(), rows.surface.normals.end());
+  s.surface->write(surface, count);
+  s.albedo->write(interleaved(rows.surface.albedo, 3, srgb_byte), count);
+  s.normals->write(interleaved(rows.surface.normals, 3, [](double n) { return byte_of(0.5 * n + 0.5); }),
+                   count);
+  s.confidence->write(interleaved(rows.confidence, 1, byte_of), count);
+}
+
+void AssetWriter::commit() {
+  State& s = *state_;
+  if (s.amplitudes) s.amplitudes->commit();
+  if (s.chroma) s.chroma->commit();
+  for (const auto& texture : s.packed) texture->commit();
+  if (s.dominant) s.dominant->commit();
+  s.surface->commit();
+  s.albedo->commit();
+  s.normals->commit();
+  s.confidence->commit();
+}
+
+std::size_t AssetWriter::cut_values() const {
+  return state_->amplitudes ? state_->amplitudes->cut_values() : 0;
+}
+
+struct AssetReader::State {
+  RealisAsset asset;
+  bool packed = false;
+  std::optional<io::ExrRowReader> amplitudes;
+  std::optional<io::ExrRowReader> chroma;
+  std::optional<io::ExrRowReader> surface;
+  std::vector<io::ImageReader> codes;
+  std::optional<io::ImageReader> dominant;
+
+  void require_size(int width, int height, const std::string& file) const {
+    if (width == asset.width && height == asset.height) return;
+    throw io::IoError(io::IoError::Side::kInput, file, fmt::format("is {} x {} pixels", width, height),
+                      fmt::format("{} x {}, as {}.realis.json says", asset.width, asset.height, asset.name));
+  }
+  io::ImageReader open_bytes(const std::filesystem::path& file, int channels) const {
+    io::ImageReader reader(file);
+    require_size(reader.header().width, reader.header().height, file.string());
+    if (reader.header().channels != channels || reader.header().type != io::SampleType::kUint8) {
+      throw io::IoError(
+          io::IoError::Side::kInput, file.string(),
+          fmt::format("has {} channels of {}", reader.header().channels, name_of(reader.header().type)),
+          fmt::format("{} channels of 8 bit", channels));
+    }
+    return reader;
+  }
+  std::vector<float> read_amplitudes(int first_row, int rows);
+};
+
+namespace {
+
+std::vector<std::uint8_t> bytes_of_rows(io::ImageReader& reader, int first_row, int rows) {
+  std::vector<std::uint8_t> bytes(reader.header().row_bytes() * static_cast<std::size_t>(rows));
+  reader.read_native(first_row, rows, std::as_writable_bytes(std::span(bytes)));
+  return bytes;
+}
+
+}  // namespace
+
+std::vector<float> AssetReader::State::read_amplitudes(int first_row, int rows) {
+  if (asset.lobes.empty()) return {};
+  if (!packed) return amplitudes->read(first_row, rows);
+  bake::PackedTexels texels;
+  for (io::ImageReader& reader : codes) texels.textures.push_back(bytes_of_rows(reader, first_row, rows));
+  if (dominant) texels.mask = bytes_of_rows(*dominant, first_row, rows);
+  const std::size_t count = static_cast<std::size_t>(rows) * static_cast<std::size_t>(asset.width);
+  const std::vector<int> whole = bake::unpack(layout_of(asset), texels, count);
+  std::vector<float> out(whole.size());
+  for (std::size_t k = 0; k < whole.size(); ++k) {
+    out[k] = static_cast<float>(static_cast<double>(whole[k]) / asset.packing.largest_code() *
+                                asset.packing.precision[k / count]);
+  }
+  return out;
+}
+
+AssetReader::AssetReader(RealisAsset asset, std::filesystem::path folder, bool packed)
+    : state_(std::make_unique<State>()) {
+  State& s = *state_;
+  s.asset = std::move(asset);
+  s.packed = packed;
+  const RealisFiles& files = s.asset.files;
+  const auto open = [&](std::optional<io::ExrRowReader>& reader, const std::string& name,
+                        const std::vector<std::string>& channels) {
+    reader.emplace(folder / name, channels);
+    s.require_size(reader->width(), reader->height(), (folder / name).string());
+  };
+  open(s.surface, files.surface, kSurfaceChannels);
+  if (s.asset.lobes.empty()) return;
+  if (s.asset.colour == RealisColour::kScaledChroma) open(s.chroma, files.chroma, kChromaChannels);
+  if (!packed) {
+    open(s.amplitudes, files.amplitudes, realis_channel_names(s.asset));
+    return;
+  }
+  const bake::PackLayout layout = layout_of(s.asset);
+  if (files.packed.size() != static_cast<std::size_t>(layout.textures())) {
+    throw io::IoError(io::IoError::Side::kInput, (folder / (s.asset.name + ".realis.json")).string(),
+                      fmt::format("names {} packed textures", files.packed.size()),
+                      std::to_string(layout.textures()));
+  }
+  for (const std::string& name : files.packed) s.codes.push_back(s.open_bytes(folder / name, 4));
+  if (layout.mask_channels() > 0)
+    s.dominant.emplace(s.open_bytes(folder / files.dominant, layout.mask_channels()));
+}
+
+AssetReader::~AssetReader() = default;
+
+bake::RunTimeTexels AssetReader::read(int first_row, int rows) {
+  State& s = *state_;
+  const std::vector<float> surface = s.surface->read(first_row, rows);
+  const std::size_t count = surface.size() / 6;
+  bake::RunTimeTexels out;
+  const auto middle = surface.begin() + static_cast<std::ptrdiff_t>(3 * count);
+  out.surface.albedo.assign(surface.begin(), middle);
+  out.surface.normals.assign(middle, surface.end());
+  out.surface.state.assign(count, bake::TexelState::kOk);
+  out.baked = out.surface;
+  out.amplitudes = s.read_amplitudes(first_row, rows);
+  if (s.chroma) out.chroma = s.chroma->read(first_row, rows);
+  return out;
+}
+
+}  // namespace brdfit::cli

@@ -1,0 +1,128 @@
+#include "cli/bake_evidence.h"
+
+#include <fmt/format.h>
+
+#include "io/material_json.h"
+
+namespace brdfit::cli {
+namespace {
+
+std::string name_of(const bake::BaseModel& base) {
+  return base.material ? std::string(title_of(base.material->model())) : "Lambert";
+}
+
+// 0 where there was no error to begin with.
+double relative(double error, double without) {
+  return without > 0.0 ? error / without : 0.0;
+}
+
+io::Json gains_json(const bake::BakePlan& plan, const StackInfo& info) {
+  io::Json json = io::Json::array();
+  const bake::GainEstimate& estimate = *plan.gain_estimate;
+  for (std::size_t k = 0; k < plan.lights.size(); ++k) {
+    json.push_back({{"light", info.lights[plan.lights[k]].name},
+                    {"gain", estimate.gain[k]},
+                    {"standard_error", estimate.standard_error[k]},
+                    {"state", bake::name_of(estimate.state[k])}});
+  }
+  return json;
+}
+
+// Squared errors over the sample under held-out lights, relative to that without lobes.
+io::Json lobe_choice_json(const bake::LobeChoice& choice) {
+  io::Json json;
+  json["optimised"] = choice.optimised;
+  json["candidates"] = io::Json::array();
+  for (const bake::Candidate& candidate : choice.candidates) {
+    json["candidates"].push_back({{"lobes", candidate.count},
+                                  {"optimised", candidate.optimised},
+                                  {"held_out_error", relative(candidate.error(), choice.error_without())}});
+  }
+  return json;
+}
+
+}  // namespace
+
+io::Json evidence_json(const bake::Evidence& evidence) {
+  io::Json json = io::Json::object();
+  for (const bake::MethodEvidence& method : evidence.methods) {
+    io::Json one = {{"train_rmse_255", method.train.rmse_255},
+                    {"held_out_rmse_255", method.held_out.rmse_255},
+                    {"held_out_lit_rmse_255", method.held_out.lit_rmse_255},
+                    {"worst_light_rmse_255", method.held_out.worst_light_rmse_255},
+                    {"worst_light", method.held_out.worst_light},
+                    {"train_psnr_db", method.train.psnr_db},
+                    {"held_out_psnr_db", method.held_out.psnr_db},
+                    {"held_out_per_light_255", method.held_out.per_light_255}};
+    if (method.lobes > 0) {
+      one["lobes"] = method.lobes;
+      one["dominant"] = method.dominant;
+      one["bits"] = method.bits;
+      one["bytes_per_texel"] = method.bytes_per_texel;
+    }
+    json[method.name] = std::move(one);
+  }
+  return json;
+}
+
+io::Json plan_json(const bake::BakePlan& plan, const StackInfo& info) {
+  io::Json json;
+  json["base"] = plan.base.material ? io::material_to_json(*plan.base.material) : io::Json("lambert");
+  if (!plan.candidates.empty()) {
+    json["base_candidates"] = io::Json::array();
+    for (const bake::BaseCandidate& candidate : plan.candidates) {
+      json["base_candidates"].push_back({{"model", bake::title_of(candidate)},
+                                         {"training_rmse_255", 255.0 * candidate.training_rmse},
+                                         {"held_out_rmse_255", 255.0 * candidate.held_out_rmse}});
+    }
+  }
+  if (plan.gain_estimate) json["gains"] = gains_json(plan, info);
+  json["lobes"] = plan.system ? plan.system->lobes().size() : 0;
+  if (plan.system) json["ridge"] = plan.system->ridge();
+  if (plan.lobe_choice) json["lobe_choice"] = lobe_choice_json(*plan.lobe_choice);
+  json["notes"] = plan.notes;
+  return json;
+}
+
+std::string evidence_text(const bake::Evidence& evidence, const StackInfo& info) {
+  std::string text = fmt::format("{:<18} {:>6} {:>9} {:>9} {:>9} {:>9} {:>9}  {}\n", "RMSE in 1/255", "bytes",
+                                 "train", "held out", "lit", "PSNR dB", "worst", "under light");
+  for (const bake::MethodEvidence& m : evidence.methods) {
+    const std::string bytes = m.lobes > 0 && m.bits > 0 ? fmt::format("{:.1f}", m.bytes_per_texel) : "";
+    text += fmt::format("{:<18} {:>6} {:>9.2f} {:>9.2f} {:>9.2f} {:>9.2f} {:>9.2f}  {}\n", m.name, bytes,
+                        m.train.rmse_255, m.held_out.rmse_255, m.held_out.lit_rmse_255, m.held_out.psnr_db,
+                        m.held_out.worst_light_rmse_255, info.lights[m.held_out.worst_light].name);
+  }
+  text += fmt::format("held out: {} folds over {} lights, everything redone in each; {} texels\n",
+                      evidence.folds, info.lights.size(), evidence.texels);
+  return text;
+}
+
+std::string plan_text(const bake::BakePlan& plan, const StackInfo& info) {
+  std::string text = "base model: " + name_of(plan.base);
+  for (const bake::BaseCandidate& candidate : plan.candidates) {
+    text += fmt::format("{} {} {:.2f}", &candidate == plan.candidates.data() ? " (held out, 1/255:" : ",",
+                        bake::title_of(candidate), 255.0 * candidate.held_out_rmse);
+  }
+  text += plan.candidates.empty() ? "\n" : ")\n";
+  if (plan.system) {
+    text += fmt::format("lobes: {}, {}; ridge {:.3g}\n", plan.system->lobes().size(),
+                        !plan.lobe_choice             ? "as given"
+                        : plan.lobe_choice->optimised ? "optimised"
+                                                      : "uniform",
+                        plan.system->ridge());
+  }
+  if (plan.gain_estimate) {
+    std::size_t found = 0;
+    for (const double gain : plan.gains) found += gain != 1.0 ? 1 : 0;
+    text +=
+        fmt::format("gains: {} of {} lights differ from what the stack says\n", found, info.lights.size());
+    for (std::size_t k = 0; k < plan.gains.size(); ++k) {
+      if (plan.gains[k] != 1.0) text += fmt::format("  {}: {:.3f}\n", info.lights[k].name, plan.gains[k]);
+    }
+  }
+  for (const std::string& note : plan.notes) text += "note: " + note + "\n";
+  return text;
+}
+
+}  // namespace brdfit::cli

@@ -1,0 +1,51 @@
+// What `brdfit bake` is asked for.
+#ifndef BRDFIT_CLI_BAKE_OPTIONS_H_
+#define BRDFIT_CLI_BAKE_OPTIONS_H_
+
+#include <string>
+#include <vector>
+
+#include "bake/evidence.h"
+#include "bake/plan.h"
+#include "cli/common.h"
+#include "io/exr_rows.h"
+
+namespace brdfit::cli {
+
+struct BakeArguments {
+  CommonOptions common;
+  std::string stack;
+  std::string output = ".";
+  std::string name;
+  std::string transfer;
+  std::string lobes = "8";
+  std::string lobe_set;
+  bool uniform = false;
+  std::string colour = "luminance";
+  std::string base = "auto";
+  std::string model = "callisto";
+  bool gains = false;
+  bool albedo_in_modulation = false;
+  int bits = 8;
+  std::string dominant = "all";
+  bool no_dither = false;
+  bool half = false;
+  bool no_evidence = false;
+  int folds = 0;
+  int sample_texels = 16384;
+  int memory_mib = 256;
+  bool spill = false;
+  double fade_albedo = RealisFade{}.albedo_range;
+  double fade_normal_deg = RealisFade{}.normal_range_deg;
+  std::uint64_t seed = 1;
+};
+
+void add_bake_options(CLI::App& app, BakeArguments& a);
+
+// Throw UsageError, or IoError for a lobe set that cannot be read.
+bake::BakeSettings bake_settings_of(const BakeArguments& a);
+int dominant_of(const BakeArguments& a, int lobes);
+
+}  // namespace brdfit::cli
+
+#endif  // BRDFIT_CLI_BAKE_OPTIONS_H_
