@@ -11,6 +11,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <numeric>
 #include <optional>
 
@@ -27,6 +28,8 @@ constexpr std::size_t kFewestTriples = 30;
 constexpr double kSameDirection = 0.999999;  // cosine: 0.08 deg
 constexpr double kSamePicture = 1.0 - 1e-9;  // correlation of values; cameras' noise is far below it
 constexpr std::size_t kSwapCandidates = 16;
+constexpr double kOtherStrength = 1.5;
+constexpr double kFarOffDeg = 10.0;
 
 std::uint32_t neighbour_step(const StackInfo& info) {
   return static_cast<std::uint32_t>(std::clamp(std::min(info.width, info.height) / 200, 1, 4));
@@ -261,20 +264,82 @@ class Checker {
            fmt::format("the lights of {} and {} seem to be swapped", name(first), name(second)),
            {first, second}});
     }
-    Eigen::VectorXd shares = explainer.residual_of_lights(order);
-    std::vector<double> sorted(shares.begin(), shares.end());
-    std::nth_element(sorted.begin(), sorted.begin() + static_cast<std::ptrdiff_t>(sorted.size() / 2),
-                     sorted.end());
-    const double median = sorted[sorted.size() / 2];
-    for (Index l = 0; l < shares.size(); ++l) {
-      // Grazing lights fit worse than others by far, so much is needed.
-      if (shares[l] < 16.0 * median || shares[l] < 0.25) continue;
-      const auto light = static_cast<std::size_t>(l);
-      result.suspicions.push_back(
-          {"misplaced light",
-           fmt::format("{} does not look lit from its direction (Lambert residual {:.0f}%, usual {:.0f}%)",
-                       name(light), 100.0 * std::sqrt(shares[l]), 100.0 * std::sqrt(median)),
-           {light}});
+    find_misplaced(order, result);
+  }
+
+  // What another direction and strength of a light would explain of its picture.
+  struct Better {
+    Index light = 0;
+    Eigen::Vector3d direction;  // times strength
+    double angle_deg = 0.0;
+    double gain = 0.0;  // energy that it explains beyond the listed direction
+  };
+
+  // The light that gains most, if any gains much. Albedo times normal is taken from the lights that are
+  // trusted, without the one in question, so that a wrong one does not speak for itself. Grazing lights fit
+  // badly whatever their direction (cast shadows), so a bad fit alone says nothing.
+  std::optional<Better> most_misplaced(const Matrix& listed, const std::vector<bool>& is_trusted) const {
+    Eigen::Matrix3d gram = Eigen::Matrix3d::Zero();
+    Matrix right_side = Matrix::Zero(3, values_.cols());
+    for (Index l = 0; l < listed.rows(); ++l) {
+      if (!is_trusted[static_cast<std::size_t>(l)]) continue;
+      gram += listed.row(l).transpose() * listed.row(l);
+      right_side += listed.row(l).transpose() * values_.row(l);
+    }
+    std::optional<Better> found;
+    for (Index l = 0; l < listed.rows(); ++l) {
+      if (!is_trusted[static_cast<std::size_t>(l)]) continue;
+      const Eigen::RowVectorXd picture = values_.row(l);
+      const Eigen::Vector3d direction = listed.row(l).transpose();
+      const Matrix surface = Eigen::LDLT<Eigen::Matrix3d>(gram - direction * direction.transpose())
+                                 .solve(right_side - direction * picture);
+      const Eigen::Matrix3d moments = surface * surface.transpose();
+      const Eigen::Vector3d best = Eigen::LDLT<Eigen::Matrix3d>(moments).solve(surface * picture.transpose());
+      const double left = (picture - best.transpose() * surface).squaredNorm();
+      const double as_listed_left = (picture - direction.transpose() * surface).squaredNorm();
+      if (!(best.norm() > 0.0) || !(left < 0.25 * as_listed_left)) continue;
+      // Shadows pull the best direction aside; where strength alone explains nearly as much, it is that.
+      const Eigen::RowVectorXd expected = direction.transpose() * surface;
+      const double gain = picture.dot(expected) / expected.squaredNorm();
+      const double gained_left = (picture - gain * expected).squaredNorm();
+      const bool is_gain = as_listed_left - gained_left > 0.8 * (as_listed_left - left);
+      const Eigen::Vector3d better = is_gain ? Eigen::Vector3d(gain * direction) : best;
+      const double strength = better.norm();
+      const double cosine = std::clamp(better.dot(direction) / strength, -1.0, 1.0);
+      const double angle = std::acos(cosine) * 180.0 / std::numbers::pi;
+      const bool is_much = angle > kFarOffDeg || strength < 1.0 / kOtherStrength || strength > kOtherStrength;
+      if (!is_much || (found && as_listed_left - left <= found->gain)) continue;
+      found = {l, better, angle, as_listed_left - left};
+    }
+    return found;
+  }
+
+  void find_misplaced(const Order& order, LightCheck& result) const {
+    Matrix listed(directions_.rows(), 3);
+    for (Index l = 0; l < listed.rows(); ++l)
+      listed.row(l) = directions_.row(order[static_cast<std::size_t>(l)]);
+    std::vector<bool> is_trusted(order.size(), true);
+    // Where many are wrong, the rest is no judge.
+    for (std::size_t most = order.size() / 4; most > 0; --most) {
+      const std::optional<Better> found = most_misplaced(listed, is_trusted);
+      if (!found) return;
+      const auto light = static_cast<std::size_t>(found->light);
+      is_trusted[light] = false;
+      const double strength = found->direction.norm();
+      const Eigen::Vector3d unit = found->direction / strength;
+      if (found->angle_deg > kFarOffDeg) {
+        result.suspicions.push_back(
+            {"misplaced light",
+             fmt::format("{} looks lit from ({:.2f}, {:.2f}, {:.2f}), {:.0f} deg from its direction",
+                         name(light), unit.x(), unit.y(), unit.z(), found->angle_deg),
+             {light}});
+      } else {
+        result.suspicions.push_back(
+            {"other strength",
+             fmt::format("{} looks {:.2g} times as bright as its light should make it", name(light),
+                         strength),
+             {light}});
+      }
     }
   }
 

@@ -13,7 +13,8 @@ namespace brdfit::bake {
 
 // Something that would explain the pictures clearly better than what the file says.
 struct LightSuspicion {
-  // "same direction", "same picture", "swapped lights", "wrong order", "misplaced light", "mirrored",
+  // "same direction", "same picture", "swapped lights", "wrong order", "misplaced light",
+  // "other strength", "mirrored",
   // "transposed", "turned by 90 deg", "opposite side"
   std::string kind;
   std::string text;                 // for people, on one line

@@ -209,12 +209,13 @@ void draw_lights(const std::filesystem::path& file, const io::FileStack& stack, 
   std::vector<render::MappedLight> lights;
   for (std::size_t l = 0; l < info.lights.size(); ++l) {
     const StackLight& light = info.lights[l];
-    lights.push_back({light.direction, light.name, light.position.has_value(), suspects.contains(l)});
+    lights.push_back(
+        {light.direction, base_name(light.name), light.position.has_value(), suspects.contains(l)});
   }
-  const render::LightMapOptions options = {fmt::format("{}: {} lights", info.name, info.lights.size()),
-                                           found.check.suspicions.empty()
-                                               ? "seen from above; the rim is the horizon"
-                                               : found.check.suspicions[0].text};
+  const render::LightMapOptions options = {
+      fmt::format("{}: {} lights", info.name, info.lights.size()),
+      suspects.empty() ? "seen from above; the rim is the horizon"
+                       : "seen from above; the rim is the horizon; orange: suspicious"};
   if (file.extension() == ".svg") {
     io::write_text(file, render::light_map_svg(lights, options));
   } else {

@@ -172,6 +172,23 @@ TEST(LightCheck, OrdersOfTheWholeListAreTold) {
   EXPECT_THAT(check.suspicions[0].text, testing::HasSubstr("sorted by"));
 }
 
+TEST(LightCheck, ALightElsewhereOrOfOtherStrengthIsTold) {
+  Scene made = scene();
+  made.info.lights[6].direction = {0.0, 0.8, 0.6};
+  const Vec3 truth = dome()[6];
+  LightCheck check = check_lights(made.info, made.block);
+  ASSERT_THAT(kinds(check), testing::ElementsAre("misplaced light"));
+  EXPECT_THAT(check.suspicions[0].lights, testing::ElementsAre(6));
+  EXPECT_GT(std::acos(0.8 * truth.y + 0.6 * truth.z), 0.5) << "the test moves it far";
+  made = scene();
+  for (std::size_t c = 0; c < 3; ++c) {
+    for (float& value : made.block.plane(9, c)) value *= 0.4F;
+  }
+  check = check_lights(made.info, made.block);
+  ASSERT_THAT(kinds(check), testing::ElementsAre("other strength"));
+  EXPECT_THAT(check.suspicions[0].lights, testing::ElementsAre(9));
+}
+
 TEST(LightCheck, TwiceTheSameIsTold) {
   Scene made = scene();
   made.info.lights[4].direction = made.info.lights[0].direction;
