@@ -27,7 +27,7 @@ constexpr std::size_t kFewestLights = 4;
 constexpr std::size_t kFewestTriples = 30;
 constexpr double kSameDirection = 0.999999;  // cosine: 0.08 deg
 constexpr double kSamePicture = 1.0 - 1e-9;  // correlation of values; cameras' noise is far below it
-constexpr std::size_t kSwapCandidates = 16;
+constexpr std::size_t kSwapCandidates = 48;  // grazing lights come before them
 constexpr double kOtherStrength = 1.5;
 constexpr double kFarOffDeg = 10.0;
 

@@ -353,7 +353,7 @@ TEST_F(ImageStackFileTest, BlocksGivenBackLeaveNoTrace) {
   EXPECT_THAT(reused.normals, IsEmpty());
 }
 
-TEST_F(ImageStackFileTest, ProgressiveAndInterlacedFilesAreKeptAside) {
+TEST_F(ImageStackFileTest, RowsKeptAsideMayBeReadInAnyOrder) {
   // A row at a time from the top and back, which decodes anew for every step back unless it is kept.
   const StackSource source = waves_stack(".jpg", SampleType::kUint8);
   FileStackOptions options;
