@@ -8,6 +8,7 @@
 #include "brdf/albedo.h"
 #include "cli/common.h"
 #include "cli/result_text.h"
+#include "cli/stack_info.h"
 #include "cli/subject_input.h"
 #include "cli/table_input.h"
 #include "cli/threads.h"
@@ -22,6 +23,8 @@ struct Arguments {
   CommonOptions common;
   std::string file;
   bool lenient = false;
+  std::string transfer;  // of a stack; empty: as the files say
+  std::string lights;    // of a stack: the picture of its lights
 };
 
 int describe_table(const Arguments& a) {
@@ -103,8 +106,23 @@ int describe_material(const Arguments& a) {
   return kDone;
 }
 
+StackInfoRequest stack_request(const Arguments& a) {
+  StackInfoRequest request = {a.file, {}, a.lights};
+  if (!a.transfer.empty()) {
+    request.transfer = io::transfer_from(a.transfer);
+    if (!request.transfer) {
+      throw UsageError(fmt::format("--transfer {}: it is one of {}", a.transfer, io::kTransferNames));
+    }
+  }
+  return request;
+}
+
 int run(const Arguments& a) {
   const ThreadLimit threads(a.common.threads);
+  if (is_stack_file(a.file)) return describe_stack(stack_request(a), a.common);
+  if (!a.transfer.empty() || !a.lights.empty()) {
+    throw UsageError("--transfer and --lights are for stacks (olat.json, .lp)");
+  }
   if (std::filesystem::path(a.file).extension() == ".json") return describe_material(a);
   return describe_table(a);
 }
@@ -114,10 +132,18 @@ int run(const Arguments& a) {
 Command add_info_command(CLI::App& program) {
   auto a = std::make_shared<Arguments>();
   CLI::App* app = program.add_subcommand("info", "what a file holds, and whether it is sound");
-  app->footer("Example: brdfit info blue-fabric.binary");
-  app->add_option("file", a->file, "MERL-format .binary file, or a material .json")->required();
+  app->footer(
+      "Examples: brdfit info blue-fabric.binary\n          brdfit info lion.lp --transfer linear --lights "
+      "lights.png");
+  app->add_option("file", a->file, "MERL-format .binary file, a material .json, or a stack: olat.json or .lp")
+      ->required();
   app->add_flag("--lenient", a->lenient, "take NaN and infinities as unmeasured, and say how many");
-  add_common_options(*app, a->common, false);
+  app->add_option("--transfer", a->transfer,
+                  fmt::format("how a stack's pictures encode light: {}; as the files say unless given",
+                              io::kTransferNames));
+  app->add_option("--lights", a->lights,
+                  "writes a picture of a stack's lights on the hemisphere (.svg, .png)");
+  add_common_options(*app, a->common, true);
   return {app, [a](const std::string&) { return run(*a); }};
 }
 

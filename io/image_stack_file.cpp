@@ -28,7 +28,7 @@ namespace {
 
 using Side = IoError::Side;
 
-constexpr int kRowsAtOnce = 16;
+constexpr int kRowsAtOnce = 16;  // those of a JPEG's blocks
 
 // All pictures stay open; beside them the program has few files.
 void allow_files(std::size_t pictures, const std::string& name) {
@@ -126,6 +126,8 @@ class FileStack::Impl {
     return static_cast<int>(std::min(rows, static_cast<std::size_t>(info_.height)));
   }
 
+  void give_back(TexelBlock block) { given_back_ = std::move(block); }
+
   const StackInfo& info() const { return info_; }
   const StackSource& source() const { return source_; }
   const StackEncoding& encoding() const { return encoding_; }
@@ -201,8 +203,10 @@ class FileStack::Impl {
     }
   }
 
-  TexelBlock empty_block(std::size_t texels, PixelConverter::Output output) const {
-    TexelBlock block;
+  TexelBlock empty_block(std::size_t texels, PixelConverter::Output output) {
+    TexelBlock block = std::move(given_back_);
+    given_back_ = {};
+    block.weight.clear();
     block.texels.resize(texels);
     block.lights = pictures_.size();
     block.channels = output == PixelConverter::Output::kLuminance ? 1 : 3;
@@ -294,6 +298,7 @@ class FileStack::Impl {
   StackEncoding encoding_;
   PixelCounts counts_;
   std::vector<bool> counted_;
+  TexelBlock given_back_;
   std::unique_ptr<SpillFile> spill_;
   std::vector<Picture> pictures_;
   std::optional<StackFrames> frames_;
@@ -318,6 +323,10 @@ TexelBlock FileStack::read_luminance(int first_row, int rows) {
 
 TexelBlock FileStack::read_texels(std::span<const std::uint32_t> texels) {
   return impl_->read_texels(texels);
+}
+
+void FileStack::give_back(TexelBlock block) {
+  impl_->give_back(std::move(block));
 }
 
 int FileStack::strip_rows() const {

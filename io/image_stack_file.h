@@ -61,6 +61,7 @@ class FileStack : public ImageStack {
   TexelBlock read_rows(int first_row, int rows) override;
   TexelBlock read_luminance(int first_row, int rows) override;
   TexelBlock read_texels(std::span<const std::uint32_t> texels) override;
+  void give_back(TexelBlock block) override;
 
   // Rows of a strip that fit into options.memory_bytes; at least 1.
   int strip_rows() const;

@@ -12,11 +12,30 @@
 namespace brdfit::io {
 namespace {
 
-constexpr int kRowsAtOnce = 16;
+constexpr int kRowsAtOnce = 8;
 
 std::size_t pixel_count(const PixelChoice& choice, int width) {
   return choice.texels.empty() ? static_cast<std::size_t>(choice.rows) * static_cast<std::size_t>(width)
                                : choice.texels.size();
+}
+
+// Texels of neighbouring rows with one call to the decoder.
+void copy_chosen(RowSource& rows, std::span<const std::uint32_t> texels, std::byte* out) {
+  const auto width = static_cast<std::uint32_t>(rows.header().width);
+  const std::size_t row_bytes = rows.header().row_bytes();
+  const std::size_t pixel_bytes = row_bytes / width;
+  std::vector<std::byte> strip(kRowsAtOnce * row_bytes);
+  for (std::size_t k = 0; k < texels.size();) {
+    const std::uint32_t first = texels[k] / width;
+    std::size_t end = k;
+    while (end < texels.size() && texels[end] / width < first + kRowsAtOnce) ++end;
+    const std::size_t count = texels[end - 1] / width - first + 1;
+    rows.read(static_cast<int>(first), static_cast<int>(count), std::span(strip).first(count * row_bytes));
+    for (; k < end; ++k, out += pixel_bytes) {
+      const std::size_t place = (texels[k] / width - first) * row_bytes + texels[k] % width * pixel_bytes;
+      std::memcpy(out, strip.data() + place, pixel_bytes);
+    }
+  }
 }
 
 }  // namespace
@@ -29,17 +48,7 @@ std::vector<std::byte> samples_of(RowSource& rows, const PixelChoice& choice) {
     rows.read(choice.first_row, choice.rows, samples);
     return samples;
   }
-  const auto width = static_cast<std::uint32_t>(header.width);
-  const std::size_t pixel_bytes = header.row_bytes() / width;
-  std::vector<std::byte> row(header.row_bytes());
-  std::byte* out = samples.data();
-  for (std::size_t k = 0; k < choice.texels.size();) {
-    const std::uint32_t y = choice.texels[k] / width;
-    rows.read(static_cast<int>(y), 1, row);
-    for (; k < choice.texels.size() && choice.texels[k] / width == y; ++k, out += pixel_bytes) {
-      std::memcpy(out, row.data() + choice.texels[k] % width * pixel_bytes, pixel_bytes);
-    }
-  }
+  copy_chosen(rows, choice.texels, samples.data());
   return samples;
 }
 

@@ -92,6 +92,8 @@ class ImageStack {
   virtual TexelBlock read_luminance(int first_row, int rows);
   // Any texels (ascending indices), in one pass over the pictures.
   virtual TexelBlock read_texels(std::span<const std::uint32_t> texels) = 0;
+  // A block that is used no more: the next one takes its memory, which costs less than new pages.
+  virtual void give_back(TexelBlock) {}
 };
 
 // A stack that is already in memory: for tests, and for stages that work on a choice of texels.

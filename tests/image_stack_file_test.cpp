@@ -336,7 +336,24 @@ TEST_F(ImageStackFileTest, MemoryBoundsTheHeightOfStrips) {
   EXPECT_EQ(last, 41);
 }
 
-TEST_F(ImageStackFileTest, ProgressiveAndInterlacedFilesAreKeptAside) {
+TEST_F(ImageStackFileTest, BlocksGivenBackLeaveNoTrace) {
+  const StackSource source = waves_stack(".png", SampleType::kUint8);
+  FileStack plain(source);
+  FileStack stack(source);
+  TexelBlock old = stack.read_rows(0, 20);
+  old.weight.assign(old.lights * old.count(), 0.0F);
+  old.normals.assign(3 * old.count(), 7.0F);
+  std::fill(old.rgb.begin(), old.rgb.end(), 7.0F);
+  stack.give_back(std::move(old));
+  const TexelBlock fresh = plain.read_rows(20, 21);
+  const TexelBlock reused = stack.read_rows(20, 21);
+  EXPECT_EQ(reused.rgb, fresh.rgb);
+  EXPECT_EQ(reused.texels, fresh.texels);
+  EXPECT_THAT(reused.weight, IsEmpty());
+  EXPECT_THAT(reused.normals, IsEmpty());
+}
+
+TEST_F(ImageStackFileTest, RowsKeptAsideMayBeReadInAnyOrder) {
   // A row at a time from the top and back, which decodes anew for every step back unless it is kept.
   const StackSource source = waves_stack(".jpg", SampleType::kUint8);
   FileStackOptions options;
