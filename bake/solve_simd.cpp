@@ -17,9 +17,8 @@ using V = Lanes<float>;
 constexpr int kWide = 2;  // vectors of texels that share each broadcast value
 constexpr std::size_t kStep = kWide * V::size;
 constexpr int kChunk = V::size >= 16 ? 12 : 6;  // sums held in registers at once
-// Keeps pivots of singular matrices positive. Refinement takes its effect out of regular ones.
-constexpr double kJitter = 4e-6;
-constexpr double kLeastPivot = 1e-6;
+// The least pivot, as a share of the diagonal: above the rounding that is left of one that should be 0.
+constexpr double kLeastPivot = 4e-6;
 constexpr double kTiny = 1e-30;
 
 struct Wide {
@@ -144,7 +143,7 @@ class TexelSolver {
       V inverse_diagonal[P];
       for (int j = 0; j < P; ++j) {
         const V whole = gram_[entry(j, j)].part[w] + broadcast(job_.penalty[entry(j, j)]);
-        V pivot = multiply_add(whole, V(kJitter), whole) + V(kTiny);
+        V pivot = whole;
         for (int k = 0; k < j; ++k) pivot = pivot - lower[entry(j, k)] * lower[entry(j, k)];
         const V least = multiply_add(whole, V(kLeastPivot), V(kTiny));
         inverse_diagonal[j] = V(1.0) / sqrt(select(pivot > least, pivot, least));
