@@ -44,7 +44,7 @@ class TexelSolver {
     for (std::size_t at = 0; at < 3 * padded_ * kStep; ++at) residual_[at] = 0.0F;
   }
 
-  HWY_FLATTEN void run() {
+  void run() {
     for (std::size_t at = 0; at < job_.count; at += kStep) {
       const std::size_t length = job_.count - at < kStep ? job_.count - at : kStep;
       load(job_.first + at, length);
@@ -60,7 +60,7 @@ class TexelSolver {
   static constexpr int entry(int i, int j) { return i * (i + 1) / 2 + j; }
 
   // Residual and modulation, both times the root of the weight.
-  HWY_INLINE void load(std::size_t first, std::size_t length) {
+  HWY_NOINLINE void load(std::size_t first, std::size_t length) {
     for (std::size_t l = 0; l < job_.lights; ++l) {
       const std::size_t from = l * job_.stride + first;
       if (length == kStep) {
@@ -137,7 +137,7 @@ class TexelSolver {
   }
 
   // gram_ becomes the inverse of itself with the penalty.
-  HWY_INLINE void invert() {
+  HWY_NOINLINE void invert() {
     for (int w = 0; w < kWide; ++w) {
       V lower[n];
       V inverse_diagonal[P];
@@ -214,7 +214,7 @@ class TexelSolver {
     }
   }
 
-  HWY_INLINE void solve() {
+  HWY_NOINLINE void solve() {
     for (int k = 0; k < P; ++k) {
       for (int w = 0; w < kWide; ++w) unknowns_[k].part[w] = V(0.0);
     }
@@ -227,7 +227,7 @@ class TexelSolver {
     leave();
   }
 
-  HWY_INLINE void errors() {
+  HWY_NOINLINE void errors() {
     for (int w = 0; w < kWide; ++w) {
       V sum(0.0);
       for (std::size_t l = 0; l < job_.lights; ++l) {
@@ -249,7 +249,7 @@ class TexelSolver {
     }
   }
 
-  HWY_INLINE void leave_one_out() {
+  HWY_NOINLINE void leave_one_out() {
     for (int i = 1; i < P; ++i) {  // entries off the diagonal count twice in products with symmetric ones
       for (int j = 0; j < i; ++j) {
         for (int w = 0; w < kWide; ++w) {
@@ -290,7 +290,7 @@ class TexelSolver {
     sum = multiply_add(error, error, sum);
   }
 
-  HWY_INLINE void store(std::size_t first, std::size_t length) {
+  HWY_NOINLINE void store(std::size_t first, std::size_t length) {
     V keep[kWide];
     alignas(64) float values[kStep];
     const auto put = [&](float* plane) {
