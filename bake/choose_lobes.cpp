@@ -14,6 +14,10 @@
 namespace brdfit::bake {
 namespace {
 
+// Fewer lights per lobe than this cannot carry the five parameters that a search gives each lobe.
+constexpr std::size_t kLightsPerSearchedLobe = 6;
+// Lobes must help in this share of the folds: where they fail they may fail by far.
+constexpr double kHelpedFolds = 0.75;
 // Gains of a smaller share of the squared error are not worth a texture.
 constexpr double kLeastGain = 2e-3;
 
@@ -67,12 +71,14 @@ bool gains(const Candidate& candidate, const std::vector<double>& without) {
   const auto folds = static_cast<double>(without.size());
   const double mean = (sum(without) - candidate.error()) / folds;
   double squares = 0.0;
+  double helped = 0.0;
   for (std::size_t f = 0; f < without.size(); ++f) {
     const double gain = without[f] - candidate.errors[f];
+    if (gain > 0.0) helped += 1.0;
     squares += (gain - mean) * (gain - mean);
   }
   const double error = std::sqrt(squares / (folds * std::max(folds - 1.0, 1.0)));
-  return mean > std::max(error, kLeastGain * sum(without) / folds);
+  return helped >= kHelpedFolds * folds && mean > std::max(error, kLeastGain * sum(without) / folds);
 }
 
 // The better kind of each number, then the smallest number that is about as good as the best. Null: none
@@ -139,7 +145,9 @@ LobeChoice choose_lobes(const ProblemOf& problem_of, std::span<const Vec3> direc
   choice.errors_without.resize(folds.size());
   for (const int count : options.counts) {
     choice.candidates.push_back({count, false, std::vector<double>(folds.size())});
-    if (options.optimise) choice.candidates.push_back({count, true, std::vector<double>(folds.size())});
+    const bool enough = directions.size() >= kLightsPerSearchedLobe * static_cast<std::size_t>(count);
+    if (options.optimise && enough)
+      choice.candidates.push_back({count, true, std::vector<double>(folds.size())});
   }
   tbb::parallel_for(std::size_t{0}, folds.size(), [&](std::size_t f) {
     const std::vector<std::size_t> rest = all_but(directions.size(), folds[f]);

@@ -53,7 +53,8 @@ struct LobeChoice {
 // The folds' lights: spread over the hemisphere, whatever their order in the stack.
 std::vector<std::vector<std::size_t>> light_folds(std::span<const Vec3> directions, int folds);
 
-// Uniform lobes are kept where optimised ones are not better held out; none where the gain over no lobes is
+// Uniform lobes are kept where optimised ones are not better held out, or there are fewer than six lights per
+// lobe; none where they do not help in three of four folds; none where the gain over no lobes is
 // below 0.2% of the squared error, or not larger than its standard error over folds. Parallel over folds; the
 // same for any number of threads. Throws std::invalid_argument where counts are outside or there are fewer
 // than two lights.

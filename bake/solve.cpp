@@ -3,6 +3,7 @@
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
+#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
@@ -70,6 +71,17 @@ void solve_directional(const LobeSystem& system, const TexelProblem& problem, co
     part.scratch = scratch.data();
     run(part);
   });
+}
+
+// gram^-1 right; mixes of lobes that the matrix does not determine get 0.
+Eigen::MatrixXd solved(const Eigen::MatrixXd& gram, const Eigen::MatrixXd& right) {
+  const Eigen::LLT<Eigen::MatrixXd> triangle(gram);
+  if (triangle.info() == Eigen::Success && triangle.rcond() > kSingular) return triangle.solve(right);
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(gram);
+  const double least = kSingular * std::max(eigen.eigenvalues().maxCoeff(), 0.0);
+  const Eigen::VectorXd inverse =
+      eigen.eigenvalues().unaryExpr([least](double v) { return v > least ? 1.0 / v : 0.0; });
+  return eigen.eigenvectors() * (inverse.asDiagonal() * (eigen.eigenvectors().transpose() * right));
 }
 
 // One texel under lights whose directions are its own.
@@ -194,12 +206,7 @@ TexelSolution solve_texel(const Eigen::MatrixXd& basis, const Eigen::VectorXd& r
   const Eigen::MatrixXd weighted = weight.asDiagonal() * modulated;
   Eigen::MatrixXd gram = modulated.transpose() * weighted;
   gram.diagonal().array() += penalty;
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(gram);
-  const double least = kSingular * std::max(eigen.eigenvalues().maxCoeff(), 0.0);
-  const Eigen::VectorXd inverse =
-      eigen.eigenvalues().unaryExpr([least](double v) { return v > least ? 1.0 / v : 0.0; });
-  const Eigen::MatrixXd solver =
-      eigen.eigenvectors() * inverse.asDiagonal() * eigen.eigenvectors().transpose() * weighted.transpose();
+  const Eigen::MatrixXd solver = solved(gram, weighted.transpose());
   TexelSolution solution;
   solution.amplitudes = solver * residual;
   solution.hat = (modulated.array() * solver.transpose().array()).rowwise().sum();

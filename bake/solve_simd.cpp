@@ -17,9 +17,8 @@ using V = Lanes<float>;
 constexpr int kWide = 2;  // vectors of texels that share each broadcast value
 constexpr std::size_t kStep = kWide * V::size;
 constexpr int kChunk = V::size >= 16 ? 12 : 6;  // sums held in registers at once
-// Keeps pivots of singular matrices positive. Refinement takes its effect out of regular ones.
-constexpr double kJitter = 4e-6;
-constexpr double kLeastPivot = 1e-6;
+// The least pivot, as a share of the diagonal: above the rounding that is left of one that should be 0.
+constexpr double kLeastPivot = 4e-6;
 constexpr double kTiny = 1e-30;
 
 struct Wide {
@@ -45,7 +44,7 @@ class TexelSolver {
     for (std::size_t at = 0; at < 3 * padded_ * kStep; ++at) residual_[at] = 0.0F;
   }
 
-  HWY_FLATTEN void run() {
+  void run() {
     for (std::size_t at = 0; at < job_.count; at += kStep) {
       const std::size_t length = job_.count - at < kStep ? job_.count - at : kStep;
       load(job_.first + at, length);
@@ -61,7 +60,7 @@ class TexelSolver {
   static constexpr int entry(int i, int j) { return i * (i + 1) / 2 + j; }
 
   // Residual and modulation, both times the root of the weight.
-  HWY_INLINE void load(std::size_t first, std::size_t length) {
+  HWY_NOINLINE void load(std::size_t first, std::size_t length) {
     for (std::size_t l = 0; l < job_.lights; ++l) {
       const std::size_t from = l * job_.stride + first;
       if (length == kStep) {
@@ -138,13 +137,13 @@ class TexelSolver {
   }
 
   // gram_ becomes the inverse of itself with the penalty.
-  HWY_INLINE void invert() {
+  HWY_NOINLINE void invert() {
     for (int w = 0; w < kWide; ++w) {
       V lower[n];
       V inverse_diagonal[P];
       for (int j = 0; j < P; ++j) {
         const V whole = gram_[entry(j, j)].part[w] + broadcast(job_.penalty[entry(j, j)]);
-        V pivot = multiply_add(whole, V(kJitter), whole) + V(kTiny);
+        V pivot = whole;
         for (int k = 0; k < j; ++k) pivot = pivot - lower[entry(j, k)] * lower[entry(j, k)];
         const V least = multiply_add(whole, V(kLeastPivot), V(kTiny));
         inverse_diagonal[j] = V(1.0) / sqrt(select(pivot > least, pivot, least));
@@ -215,7 +214,7 @@ class TexelSolver {
     }
   }
 
-  HWY_INLINE void solve() {
+  HWY_NOINLINE void solve() {
     for (int k = 0; k < P; ++k) {
       for (int w = 0; w < kWide; ++w) unknowns_[k].part[w] = V(0.0);
     }
@@ -228,7 +227,7 @@ class TexelSolver {
     leave();
   }
 
-  HWY_INLINE void errors() {
+  HWY_NOINLINE void errors() {
     for (int w = 0; w < kWide; ++w) {
       V sum(0.0);
       for (std::size_t l = 0; l < job_.lights; ++l) {
@@ -250,7 +249,7 @@ class TexelSolver {
     }
   }
 
-  HWY_INLINE void leave_one_out() {
+  HWY_NOINLINE void leave_one_out() {
     for (int i = 1; i < P; ++i) {  // entries off the diagonal count twice in products with symmetric ones
       for (int j = 0; j < i; ++j) {
         for (int w = 0; w < kWide; ++w) {
@@ -291,7 +290,7 @@ class TexelSolver {
     sum = multiply_add(error, error, sum);
   }
 
-  HWY_INLINE void store(std::size_t first, std::size_t length) {
+  HWY_NOINLINE void store(std::size_t first, std::size_t length) {
     V keep[kWide];
     alignas(64) float values[kStep];
     const auto put = [&](float* plane) {

@@ -24,6 +24,7 @@ using namespace brdfit::bake;
 
 // Sixteen rows of a 2048 x 2048 picture.
 constexpr std::size_t kTexels = 16 * 2048;
+constexpr std::size_t kFewTexels = 1024;
 
 double median(std::vector<double> values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -66,7 +67,14 @@ struct Contender {
   std::string name;
   std::function<void()> run;
   std::vector<double> ns_per_texel;
+  std::size_t texels = kTexels;
 };
+
+std::vector<std::size_t> few_texels() {
+  std::vector<std::size_t> texels;
+  for (std::size_t i = 0; i < kFewTexels; ++i) texels.push_back(i);
+  return texels;
+}
 
 }  // namespace
 
@@ -85,7 +93,8 @@ int main(int argc, char** argv) {
                           for (const float m : problem.modulation) sink += m;
                           for (const float r : problem.residual) sink += r;
                         },
-                        {}});
+                        {},
+                        kTexels});
   std::vector<LobeSystem> systems;
   for (const int count : {4, 8, 16}) {
     systems.emplace_back(uniform_lobes(count, cap_of(directions)), directions, squared, 0.01);
@@ -97,7 +106,8 @@ int main(int argc, char** argv) {
     std::string name = std::to_string(system.lobes().size()) + " lobes, ";
     name += simd::name_of(isa);
     name += leave_one_out ? ", leave one out" : ", training error";
-    contenders.push_back({name, [&, options] { sink += solve(system, problem, options).confidence[0]; }, {}});
+    contenders.push_back(
+        {name, [&, options] { sink += solve(system, problem, options).confidence[0]; }, {}, kTexels});
   };
   for (const LobeSystem& system : systems) {
     add(system, simd::best_isa(), true);
@@ -107,11 +117,29 @@ int main(int argc, char** argv) {
     if (isa != simd::best_isa()) add(systems[1], isa, true);
   }
 
+  // Near lights: each texel has directions of its own. Few texels, as many of these are slow.
+  TexelProblem near = with_texels(problem, few_texels());
+  near.directions.resize(3 * near.residual.size());
+  for (std::size_t l = 0; l < near.lights; ++l) {
+    for (std::size_t i = 0; i < near.texels; ++i) {
+      float* plane = near.directions.data() + l * 3 * near.texels + i;
+      plane[0] = static_cast<float>(directions[l].x);
+      plane[near.texels] = static_cast<float>(directions[l].y);
+      plane[2 * near.texels] = static_cast<float>(directions[l].z);
+    }
+  }
+  contenders.push_back({"8 lobes, near lights, leave one out",
+                        [&] { sink += solve(systems[1], near).confidence[0]; },
+                        {},
+                        kFewTexels});
+
   for (int turn = 0; turn <= turns; ++turn) {
     for (Contender& contender : contenders) {
       const double start = cpu_seconds();
       contender.run();
-      if (turn > 0) contender.ns_per_texel.push_back(1e9 * (cpu_seconds() - start) / kTexels);
+      if (turn > 0)
+        contender.ns_per_texel.push_back(1e9 * (cpu_seconds() - start) /
+                                         static_cast<double>(contender.texels));
     }
   }
   std::printf("%d lights, CPU time of one thread, median of %d turns\n", lights, turns);
