@@ -119,10 +119,10 @@ void plan_lobes(BakePlan& plan, const StackInfo& info, const TexelBlock& sample,
         info, sample,
         render_of(info, sample, surface, all_lights(info), plan.base, settings.albedo_in_modulation));
   };
+  std::vector<std::size_t> all(info.lights.size());
+  std::iota(all.begin(), all.end(), std::size_t{0});
+  const TexelProblem problem = problem_of(all);
   if (settings.given_lobes) {
-    std::vector<std::size_t> all(info.lights.size());
-    std::iota(all.begin(), all.end(), std::size_t{0});
-    const TexelProblem problem = problem_of(all);
     const RidgeChoice ridge = choose_ridge(*settings.given_lobes, directions, problem);
     if (ridge.helps()) {
       plan.system.emplace(*settings.given_lobes, directions, mean_squared_modulation(problem), ridge.ridge);
@@ -138,9 +138,11 @@ void plan_lobes(BakePlan& plan, const StackInfo& info, const TexelBlock& sample,
     if (!choice.lobes.empty())
       plan.system.emplace(choice.lobes, directions, choice.squared_modulation, choice.ridge);
   }
-  if (!plan.system) {
-    plan.notes.emplace_back(
-        "no lobes lower the error under lights that they have not seen: nothing is corrected");
+  if (plan.system) {
+    plan.warnings = solve_warnings(*plan.system, problem);
+  } else {
+    plan.warnings = {{"no-lobes-help",
+                      "no lobes lower the error under lights that they have not seen: nothing is corrected"}};
   }
 }
 

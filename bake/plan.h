@@ -15,6 +15,7 @@
 #include "bake/photometric_stereo.h"
 #include "bake/shared_material.h"
 #include "bake/solve.h"
+#include "bake/solve_warnings.h"
 #include "brdf/realis_asset.h"
 #include "measured/image_stack.h"
 
@@ -57,7 +58,7 @@ struct BakePlan {
   std::vector<BaseCandidate> candidates;   // that were compared; empty where the base was given
   std::optional<LobeSystem> system;        // nothing where no lobes help
   std::optional<LobeChoice> lobe_choice;   // what was compared; nothing where lobes were given
-  std::vector<std::string> notes;          // what the user should know
+  std::vector<SolveWarning> warnings;      // what makes the stack hard, by name
   PlanTimings timings;
 };
 

@@ -80,7 +80,10 @@ io::Json plan_json(const bake::BakePlan& plan, const StackInfo& info) {
   json["lobes"] = plan.system ? plan.system->lobes().size() : 0;
   if (plan.system) json["ridge"] = plan.system->ridge();
   if (plan.lobe_choice) json["lobe_choice"] = lobe_choice_json(*plan.lobe_choice);
-  json["notes"] = plan.notes;
+  json["warnings"] = io::Json::array();
+  for (const bake::SolveWarning& warning : plan.warnings) {
+    json["warnings"].push_back({{"name", warning.name}, {"message", warning.message}});
+  }
   return json;
 }
 
@@ -121,7 +124,9 @@ std::string plan_text(const bake::BakePlan& plan, const StackInfo& info) {
       if (plan.gains[k] != 1.0) text += fmt::format("  {}: {:.3f}\n", info.lights[k].name, plan.gains[k]);
     }
   }
-  for (const std::string& note : plan.notes) text += "note: " + note + "\n";
+  for (const bake::SolveWarning& warning : plan.warnings) {
+    text += fmt::format("warning: {} ({})\n", warning.message, warning.name);
+  }
   return text;
 }
 
