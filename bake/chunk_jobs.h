@@ -84,7 +84,16 @@ struct BaseColourJob {
   float* base_colour = nullptr;  // [3][kChunk]
 };
 
-using AffineFunction = void (*)(const AffineJob<double>&);
+// Residuals of a chunk with base colours solved in closed form; see bake/shared_material.cpp.
+struct ProjectionJob {
+  AffineJob<double> affine;
+  const double* value = nullptr;        // [light][channel][kChunk]
+  const double* root_weight = nullptr;  // [light][kChunk]
+  double robust_width = 1.0;
+  double* residual = nullptr;  // [light][channel][kChunk]
+};
+
+using ProjectionFunction = void (*)(const ProjectionJob&);
 using RenderFunction = void (*)(const RenderJob&);
 using BaseColourFunction = void (*)(const BaseColourJob&);
 
