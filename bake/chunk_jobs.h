@@ -37,9 +37,10 @@ struct ValueColumns {
 struct StereoJob {
   LightColumns lights;
   ValueColumns values;
-  const float* grey = nullptr;            // [light][3]: factors that make a channel's value grey
-  const float* grey_intensity = nullptr;  // [light]: what a white texel that faces the light would show
-  const float* given_normals = nullptr;   // [3][kChunk] or null
+  const float* grey = nullptr;              // [light][3]: factors that make a channel's value grey
+  const float* grey_intensity = nullptr;    // [light]: what a white texel that faces the light would show
+  const float* scaled_direction = nullptr;  // [light][3] of directional lights: direction x grey_intensity
+  const float* given_normals = nullptr;     // [3][kChunk] or null
   float view[3] = {0.0F, 0.0F, 1.0F};
   int absolute_rounds = 0;
   int robust_rounds = 0;
