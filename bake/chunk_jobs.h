@@ -12,6 +12,10 @@ namespace brdfit::bake {
 // Texels that vector code works on at a time: their values under all lights stay in a cache.
 inline constexpr std::size_t kChunk = simd::kBlock;
 
+// Albedos and base colours are not taken from texels that all lights graze: in their least squares, the
+// lights' mean squared cosine counts as at least this.
+inline constexpr double kLeastSquaredCosine = 4e-4;
+
 // Lights as they reach the texels of a chunk. S: float or double.
 template <class S>
 struct LightColumnsOf {

@@ -119,11 +119,13 @@ HWY_FLATTEN void solve_base_colour(const BaseColourJob& job) {
       for (int round = 0; round < kRounds; ++round) {
         V top(0.0);
         V bottom(0.0);
+        V full(0.0);
         for (std::size_t k = 0; k < lights; ++k) {
           const std::size_t light = job.values.light[k];
           const float* value =
               job.values.value + light * job.values.light_stride + c * job.values.channel_stride;
           const V slope = V::load(job.affine.slope + (3 * k + c) * kChunk + at);
+          const V intensity(job.affine.lights.intensity[3 * k + c]);
           V w(1.0);
           if (job.values.weight != nullptr) {
             w = V::load(job.values.weight + light * job.values.weight_stride + at);
@@ -134,7 +136,9 @@ HWY_FLATTEN void solve_base_colour(const BaseColourJob& job) {
           if (round > 0) w = w / sqrt(multiply_add(r * r, inverse_width, V(1.0)));
           top = multiply_add(w * slope, rest, top);
           bottom = multiply_add(w * slope, slope, bottom);
+          full = multiply_add(w * intensity, intensity, full);
         }
+        bottom = at_least(bottom, V(bake::kLeastSquaredCosine) * full);
         base = at_least(top, V(0.0)) / at_least(bottom, V(1e-30));
       }
       base.store(job.base_colour + c * kChunk + at);
@@ -156,11 +160,13 @@ HWY_FLATTEN void project(const ProjectionJob& job) {
       for (int round = 0; round < kRounds; ++round) {
         V top(0.0);
         V bottom(0.0);
+        V full(0.0);
         for (std::size_t k = 0; k < lights; ++k) {
           const std::size_t row = (3 * k + c) * kChunk + at;
           const V root = V::load(job.root_weight + k * kChunk + at);
           const V slope = V::load(job.affine.slope + row);
           const V rest = V::load(job.value + row) - V::load(job.affine.offset + row);
+          const V intensity(job.affine.lights.intensity[3 * k + c]);
           V w = root * root;
           if (round > 0) {
             const V r = root * (rest - slope * base);
@@ -168,7 +174,9 @@ HWY_FLATTEN void project(const ProjectionJob& job) {
           }
           top = multiply_add(w * slope, rest, top);
           bottom = multiply_add(w * slope, slope, bottom);
+          full = multiply_add(w * intensity, intensity, full);
         }
+        bottom = at_least(bottom, V(bake::kLeastSquaredCosine) * full);
         base = at_least(top, V(0.0)) / at_least(bottom, V(1e-30));
       }
       for (std::size_t k = 0; k < lights; ++k) {

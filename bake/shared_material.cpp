@@ -174,6 +174,9 @@ class SharedFit {
       freedom.fixed[std::string(row.name)] = {row.name == "sheen_tint" ? 0.0 : 1.0};
     }
     parametrisation_ = fit::make_parametrisation(start, freedom);
+    for (fit::FreeParameter& parameter : parametrisation_.free) {
+      if (parameter.name == "roughness") parameter.lower = options.least_roughness;
+    }
   }
 
   const fit::Parametrisation& parametrisation() const { return parametrisation_; }
@@ -312,6 +315,8 @@ bool SharedMaterialOptions::is_valid(std::string* why) const {
     return false;
   };
   if (!(robust_width > 0.0)) return fails("robust_width must be positive");
+  if (!(least_roughness >= 0.01 && least_roughness < 1.0))
+    return fails("least_roughness must lie in [0.01, 1)");
   if (values == 0) return fails("values must be positive");
   if (max_iterations < 1) return fails("max_iterations must be positive");
   return true;
@@ -343,7 +348,7 @@ SharedMaterial fit_shared_material(const StackInfo& info, const TexelBlock& bloc
   // The plain highlight first: it tells where the refinements of a model begin.
   const SharedFit plain(projection, options, Effects());
   std::vector<Values> starts;
-  for (const double roughness : {0.15, 0.35, 0.7}) {
+  for (const double roughness : {0.2, 0.35, 0.7}) {
     starts.push_back(off_neutral(1.0));
     starts.back()["roughness"] = roughness;
   }

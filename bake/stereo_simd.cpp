@@ -241,6 +241,7 @@ struct Stereo {
     const F inverse_width = F(1.0) / (F(job.robust_width * job.robust_width) * variance);
     F top[3] = {F(0.0), F(0.0), F(0.0)};
     F bottom[3] = {F(0.0), F(0.0), F(0.0)};
+    F full[3] = {F(0.0), F(0.0), F(0.0)};
     for (std::size_t k = 0; k < job.lights.count; ++k) {
       const LightAt<float, kNear> light(job.lights, k, at);
       const F cosine = at_least(dot(light.direction, normal), F(0.0)) * light.falloff;
@@ -249,16 +250,19 @@ struct Stereo {
       const std::size_t at_light = job.values.light[k];
       const float* value = job.values.value + at_light * job.values.light_stride + at;
       for (std::size_t c = 0; c < 3; ++c) {
-        const F e = cosine * F(job.lights.intensity[3 * k + c]);
+        const F intensity(job.lights.intensity[3 * k + c]);
+        const F e = cosine * intensity;
         const F v = select(w > F(0.0), F::load(value + c * job.values.channel_stride), F(0.0));
         top[c] = multiply_add(w * e, v, top[c]);
         bottom[c] = multiply_add(w * e, e, bottom[c]);
+        full[c] = multiply_add(w * intensity, intensity, full[c]);
       }
     }
     *sum = F(0.0);
     for (std::size_t c = 0; c < 3; ++c) {
+      const F least = at_least(bottom[c], F(bake::kLeastSquaredCosine) * full[c]);
       const F albedo =
-          select(bottom[c] > F(1e-30), at_least(top[c], F(0.0)) / at_least(bottom[c], F(1e-30)), F(0.0));
+          select(bottom[c] > F(1e-30), at_least(top[c], F(0.0)) / at_least(least, F(1e-30)), F(0.0));
       albedo.store(job.albedo + c * kChunk + at);
       *sum = *sum + albedo;
     }
