@@ -32,9 +32,10 @@ void render_block(const StackInfo& info, const TexelBlock& block, const Surface&
                   const LightChoice& lights, const BaseModel& model, std::span<float> render);
 
 // Albedo for Lambert, base colour for a material, of texels whose normals are known: per texel and channel in
-// closed form, as render = offset + slope x base colour; >= 0, and above 1 where values ask for it. With
-// Lambert, and where the block has an albedo, the surface is returned as it is. Parallel over texels.
-// Materials must be affine in their base colour (is_affine).
+// closed form, as render = offset + slope x base colour; >= 0, and above 1 where values ask for it. Texels
+// that all lights graze get less than they ask for (kLeastSquaredCosine). With Lambert, and where the block
+// has an albedo, the surface is returned as it is. Parallel over texels. Materials must be affine in their
+// base colour (is_affine).
 Surface with_base_colour(const StackInfo& info, const TexelBlock& block, const Surface& surface,
                          const LightChoice& lights, const BaseModel& model);
 

@@ -12,6 +12,10 @@ namespace brdfit::bake {
 // Texels that vector code works on at a time: their values under all lights stay in a cache.
 inline constexpr std::size_t kChunk = simd::kBlock;
 
+// Albedos and base colours are not taken from texels that all lights graze: in their least squares, the
+// lights' mean squared cosine counts as at least this.
+inline constexpr double kLeastSquaredCosine = 4e-4;
+
 // Lights as they reach the texels of a chunk. S: float or double.
 template <class S>
 struct LightColumnsOf {
@@ -37,9 +41,10 @@ struct ValueColumns {
 struct StereoJob {
   LightColumns lights;
   ValueColumns values;
-  const float* grey = nullptr;            // [light][3]: factors that make a channel's value grey
-  const float* grey_intensity = nullptr;  // [light]: what a white texel that faces the light would show
-  const float* given_normals = nullptr;   // [3][kChunk] or null
+  const float* grey = nullptr;              // [light][3]: factors that make a channel's value grey
+  const float* grey_intensity = nullptr;    // [light]: what a white texel that faces the light would show
+  const float* scaled_direction = nullptr;  // [light][3] of directional lights: direction x grey_intensity
+  const float* given_normals = nullptr;     // [3][kChunk] or null
   float view[3] = {0.0F, 0.0F, 1.0F};
   int absolute_rounds = 0;
   int robust_rounds = 0;
@@ -84,7 +89,16 @@ struct BaseColourJob {
   float* base_colour = nullptr;  // [3][kChunk]
 };
 
-using AffineFunction = void (*)(const AffineJob<double>&);
+// Residuals of a chunk with base colours solved in closed form; see bake/shared_material.cpp.
+struct ProjectionJob {
+  AffineJob<double> affine;
+  const double* value = nullptr;        // [light][channel][kChunk]
+  const double* root_weight = nullptr;  // [light][kChunk]
+  double robust_width = 1.0;
+  double* residual = nullptr;  // [light][channel][kChunk]
+};
+
+using ProjectionFunction = void (*)(const ProjectionJob&);
 using RenderFunction = void (*)(const RenderJob&);
 using BaseColourFunction = void (*)(const BaseColourJob&);
 

@@ -39,6 +39,7 @@ void check(const StackInfo& info, const TexelBlock& block, const LightChoice& li
 struct Grey {
   std::vector<float> factor;
   std::vector<float> intensity;
+  std::vector<float> direction;  // times intensity
 };
 
 Grey grey_of(const StackInfo& info, const LightChoice& lights) {
@@ -56,6 +57,10 @@ Grey grey_of(const StackInfo& info, const LightChoice& lights) {
       grey.factor.push_back(static_cast<float>(factor));
     }
     grey.intensity.push_back(static_cast<float>(luminance));
+    const Vec3& towards = info.lights[light].direction;
+    for (const double part : {towards.x, towards.y, towards.z}) {
+      grey.direction.push_back(static_cast<float>(luminance * part));
+    }
   }
   return grey;
 }
@@ -128,6 +133,7 @@ Surface photometric_stereo(const StackInfo& info, const TexelBlock& block, const
       job.values = chunk_values(block, lights, first, work.padded);
       job.grey = grey.factor.data();
       job.grey_intensity = grey.intensity.data();
+      job.scaled_direction = grey.direction.data();
       if (!block.normals.empty()) {
         copy_chunk(block.normals, texels, first, work.given.data());
         job.given_normals = work.given.data();

@@ -27,7 +27,9 @@ std::string_view name_of(TexelState state);
 // Of a block's texels.
 struct Surface {
   std::vector<float> normals;  // [3][texel], unit, n.view > 0
-  std::vector<float> albedo;   // [channel][texel], >= 0; above 1 where texels are brighter than white
+  // [channel][texel], >= 0; above 1 where texels are brighter than white; less than values ask for where all
+  // lights graze the texel (kLeastSquaredCosine).
+  std::vector<float> albedo;
   std::vector<TexelState> state;
 
   std::size_t count() const { return state.size(); }

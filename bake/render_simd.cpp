@@ -9,6 +9,7 @@ namespace {
 using bake::AffineJob;
 using bake::BaseColourJob;
 using bake::kChunk;
+using bake::ProjectionJob;
 using bake::RenderJob;
 
 // A texel's frame; tangents after Duff et al. (2017).
@@ -118,11 +119,13 @@ HWY_FLATTEN void solve_base_colour(const BaseColourJob& job) {
       for (int round = 0; round < kRounds; ++round) {
         V top(0.0);
         V bottom(0.0);
+        V full(0.0);
         for (std::size_t k = 0; k < lights; ++k) {
           const std::size_t light = job.values.light[k];
           const float* value =
               job.values.value + light * job.values.light_stride + c * job.values.channel_stride;
           const V slope = V::load(job.affine.slope + (3 * k + c) * kChunk + at);
+          const V intensity(job.affine.lights.intensity[3 * k + c]);
           V w(1.0);
           if (job.values.weight != nullptr) {
             w = V::load(job.values.weight + light * job.values.weight_stride + at);
@@ -133,10 +136,57 @@ HWY_FLATTEN void solve_base_colour(const BaseColourJob& job) {
           if (round > 0) w = w / sqrt(multiply_add(r * r, inverse_width, V(1.0)));
           top = multiply_add(w * slope, rest, top);
           bottom = multiply_add(w * slope, slope, bottom);
+          full = multiply_add(w * intensity, intensity, full);
         }
+        bottom = at_least(bottom, V(bake::kLeastSquaredCosine) * full);
         base = at_least(top, V(0.0)) / at_least(bottom, V(1e-30));
       }
       base.store(job.base_colour + c * kChunk + at);
+    }
+  }
+}
+
+// Base colours by reweighted least squares, then residuals r sqrt(2 / (sqrt(1 + t^2) + 1)) with t = r /
+// width, whose squares are twice the pseudo-Huber costs.
+HWY_FLATTEN void project(const ProjectionJob& job) {
+  using V = Lanes<double>;
+  constexpr int kRounds = 3;
+  const std::size_t lights = job.affine.lights.count;
+  const V one(1.0);
+  const V inverse_squared(1.0 / (job.robust_width * job.robust_width));
+  for (std::size_t at = 0; at < kChunk; at += V::size) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      V base(0.0);
+      for (int round = 0; round < kRounds; ++round) {
+        V top(0.0);
+        V bottom(0.0);
+        V full(0.0);
+        for (std::size_t k = 0; k < lights; ++k) {
+          const std::size_t row = (3 * k + c) * kChunk + at;
+          const V root = V::load(job.root_weight + k * kChunk + at);
+          const V slope = V::load(job.affine.slope + row);
+          const V rest = V::load(job.value + row) - V::load(job.affine.offset + row);
+          const V intensity(job.affine.lights.intensity[3 * k + c]);
+          V w = root * root;
+          if (round > 0) {
+            const V r = root * (rest - slope * base);
+            w = w / sqrt(multiply_add(r * r, inverse_squared, one));
+          }
+          top = multiply_add(w * slope, rest, top);
+          bottom = multiply_add(w * slope, slope, bottom);
+          full = multiply_add(w * intensity, intensity, full);
+        }
+        bottom = at_least(bottom, V(bake::kLeastSquaredCosine) * full);
+        base = at_least(top, V(0.0)) / at_least(bottom, V(1e-30));
+      }
+      for (std::size_t k = 0; k < lights; ++k) {
+        const std::size_t row = (3 * k + c) * kChunk + at;
+        const V root = V::load(job.root_weight + k * kChunk + at);
+        const V rest = V::load(job.value + row) - V::load(job.affine.offset + row);
+        const V r = root * (rest - V::load(job.affine.slope + row) * base);
+        const V above = sqrt(multiply_add(r * r, inverse_squared, one)) + one;
+        (r * sqrt(V(2.0) / above)).store(job.residual + row);
+      }
     }
   }
 }
@@ -164,8 +214,9 @@ void render_of(const RenderJob& job) {
 
 }  // namespace
 
-void affine_chunk(const AffineJob<double>& job) {
-  affine_any(job);
+void projection_chunk(const ProjectionJob& job) {
+  affine_any(job.affine);
+  project(job);
 }
 
 void render_chunk(const RenderJob& job) {

@@ -16,9 +16,9 @@
 #include "fit/solve.h"
 
 namespace brdfit::simd {
-BRDFIT_DECLARE_SIMD(void affine_chunk(const bake::AffineJob<double>&))
-bake::AffineFunction affine_function(Isa isa) {
-  return BRDFIT_PICK(isa, affine_chunk);
+BRDFIT_DECLARE_SIMD(void projection_chunk(const bake::ProjectionJob&))
+bake::ProjectionFunction projection_function(Isa isa) {
+  return BRDFIT_PICK(isa, projection_chunk);
 }
 }  // namespace brdfit::simd
 
@@ -58,7 +58,7 @@ class Projection {
         lights_(lights.size()),
         columns_(info, lights),
         width_(width),
-        affine_(simd::affine_function(simd::best_isa())) {
+        project_(simd::projection_function(simd::best_isa())) {
     for (std::size_t first = 0; first < block.count(); first += kChunk) {
       add_chunk(block, surface, lights, first);
     }
@@ -76,25 +76,22 @@ class Projection {
     return sum;
   }
 
-  // at: the material at x. around: two materials and their distance for each derivative.
-  struct Difference {
-    Ends below;
-    Ends above;
-    double width;
+  // at: the material at x. aside: materials a step away along each parameter, and the steps.
+  struct Aside {
+    Ends ends;
+    double step;
   };
-  Eigen::MatrixXd gram(const Ends& at, const std::vector<Difference>& around, double* cost) const {
-    const auto n = static_cast<Eigen::Index>(around.size());
+  Eigen::MatrixXd gram(const Ends& at, const std::vector<Aside>& aside, double* cost) const {
+    const auto n = static_cast<Eigen::Index>(aside.size());
     std::vector<Eigen::MatrixXd> grams(chunks_.size());
     tbb::parallel_for(std::size_t{0}, chunks_.size(), [&](std::size_t k) {
       Eigen::MatrixXd j(rows(), n + 1);
-      Eigen::VectorXd below(rows());
-      for (Eigen::Index p = 0; p < n; ++p) {
-        const Difference& difference = around[static_cast<std::size_t>(p)];
-        residuals(k, difference.above, j.col(p).data());
-        residuals(k, difference.below, below.data());
-        j.col(p) = (j.col(p) - below) / difference.width;
-      }
       residuals(k, at, j.col(n).data());
+      for (Eigen::Index p = 0; p < n; ++p) {
+        const Aside& there = aside[static_cast<std::size_t>(p)];
+        residuals(k, there.ends, j.col(p).data());
+        j.col(p) = (j.col(p) - j.col(n)) / there.step;
+      }
       grams[k] = j.transpose() * j;
     });
     Eigen::MatrixXd sum = Eigen::MatrixXd::Zero(n + 1, n + 1);
@@ -126,65 +123,29 @@ class Projection {
     chunks_.push_back(std::move(chunk));
   }
 
-  // Robust residuals of a chunk: r sqrt(2 / (sqrt(1 + t^2) + 1)) with t = r / width, whose squares are twice
-  // the pseudo-Huber costs.
+  // Robust residuals of a chunk, base colours solved.
   void residuals(std::size_t k, const Ends& ends, double* r) const {
     const Chunk& chunk = chunks_[k];
     const std::size_t size = lights_ * 3 * kChunk;
-    thread_local std::vector<double> affine;
-    thread_local std::vector<double> at_texels;
-    affine.resize(2 * size);
-    AffineJob<double> job;
     const std::size_t first = k * kChunk;
-    job.lights = columns_.columns(std::span(texels_).subspan(first, std::min(kChunk, texels_.size() - first)),
-                                  at_texels);
-    job.black = ends.black;
-    job.white = ends.white;
-    job.normals = chunk.normals.data();
-    job.view[0] = view_.x;
-    job.view[1] = view_.y;
-    job.view[2] = view_.z;
-    job.offset = affine.data();
-    job.slope = affine.data() + size;
-    affine_(job);
-    for (std::size_t c = 0; c < 3; ++c) solve_channel(chunk, job, c, r);
-  }
-
-  void solve_channel(const Chunk& chunk, const AffineJob<double>& job, std::size_t c, double* r) const {
-    constexpr int kRounds = 3;
-    const double inverse_squared = 1.0 / (width_ * width_);
-    std::array<double, kChunk> base{};
-    for (int round = 0; round <= kRounds; ++round) {
-      std::array<double, kChunk> top{};
-      std::array<double, kChunk> bottom{};
-      for (std::size_t light = 0; light < lights_; ++light) {
-        const double* offset = job.offset + (3 * light + c) * kChunk;
-        const double* slope = job.slope + (3 * light + c) * kChunk;
-        const double* value = chunk.value.data() + (3 * light + c) * kChunk;
-        const double* root = chunk.sqrt_weight.data() + light * kChunk;
-        double* out = r + (3 * light + c) * kChunk;
-        if (round == kRounds) {
-          for (std::size_t t = 0; t < kChunk; ++t) {
-            const double residual = root[t] * (value[t] - offset[t] - slope[t] * base[t]);
-            out[t] =
-                residual * std::sqrt(2.0 / (std::sqrt(1.0 + residual * residual * inverse_squared) + 1.0));
-          }
-          continue;
-        }
-        const double share = round == 0 ? 0.0 : inverse_squared;
-        for (std::size_t t = 0; t < kChunk; ++t) {
-          const double rest = value[t] - offset[t];
-          const double residual = root[t] * (rest - slope[t] * base[t]);
-          const double w = root[t] * root[t] / std::sqrt(1.0 + residual * residual * share);
-          top[t] += w * slope[t] * rest;
-          bottom[t] += w * slope[t] * slope[t];
-        }
-      }
-      if (round == kRounds) break;
-      for (std::size_t t = 0; t < kChunk; ++t) {
-        base[t] = std::max(top[t], 0.0) / std::max(bottom[t], 1e-30);
-      }
-    }
+    std::vector<double> affine(2 * size);
+    std::vector<double> at_texels;
+    ProjectionJob job;
+    job.affine.lights = columns_.columns(
+        std::span(texels_).subspan(first, std::min(kChunk, texels_.size() - first)), at_texels);
+    job.affine.black = ends.black;
+    job.affine.white = ends.white;
+    job.affine.normals = chunk.normals.data();
+    job.affine.view[0] = view_.x;
+    job.affine.view[1] = view_.y;
+    job.affine.view[2] = view_.z;
+    job.affine.offset = affine.data();
+    job.affine.slope = affine.data() + size;
+    job.value = chunk.value.data();
+    job.root_weight = chunk.sqrt_weight.data();
+    job.robust_width = width_;
+    job.residual = r;
+    project_(job);
   }
 
   Vec3 view_;
@@ -192,7 +153,7 @@ class Projection {
   std::size_t lights_;
   ChunkLightsOf<double> columns_;
   double width_;
-  AffineFunction affine_;
+  ProjectionFunction project_;
   std::vector<Chunk> chunks_;
 };
 
@@ -213,6 +174,9 @@ class SharedFit {
       freedom.fixed[std::string(row.name)] = {row.name == "sheen_tint" ? 0.0 : 1.0};
     }
     parametrisation_ = fit::make_parametrisation(start, freedom);
+    for (fit::FreeParameter& parameter : parametrisation_.free) {
+      if (parameter.name == "roughness") parameter.lower = options.least_roughness;
+    }
   }
 
   const fit::Parametrisation& parametrisation() const { return parametrisation_; }
@@ -223,18 +187,16 @@ class SharedFit {
   }
 
   Eigen::MatrixXd gram(std::span<const double> x, double* cost) const {
-    constexpr double kStep = 1e-4;
-    std::vector<Projection::Difference> around;
+    constexpr double kStep = 1e-6;
+    std::vector<Projection::Aside> aside;
     for (std::size_t k = 0; k < x.size(); ++k) {
-      const fit::FreeParameter& parameter = parametrisation_.free[k];
-      const double step = kStep * parametrisation_.scale(k, x[k]);
-      std::vector<double> below(x.begin(), x.end());
-      std::vector<double> above = below;
-      below[k] = std::max(x[k] - step, parameter.lower);
-      above[k] = std::min(x[k] + step, parameter.upper);
-      around.push_back({ends(below), ends(above), above[k] - below[k]});
+      const double size = kStep * parametrisation_.scale(k, x[k]);
+      const double step = x[k] + size <= parametrisation_.free[k].upper ? size : -size;
+      std::vector<double> there(x.begin(), x.end());
+      there[k] += step;
+      aside.push_back({ends(there), step});
     }
-    return projection_.gram(ends(x), around, cost);
+    return projection_.gram(ends(x), aside, cost);
   }
 
   Material material(std::span<const double> x) const { return parametrisation_.to_material(x); }
@@ -353,6 +315,8 @@ bool SharedMaterialOptions::is_valid(std::string* why) const {
     return false;
   };
   if (!(robust_width > 0.0)) return fails("robust_width must be positive");
+  if (!(least_roughness >= 0.01 && least_roughness < 1.0))
+    return fails("least_roughness must lie in [0.01, 1)");
   if (values == 0) return fails("values must be positive");
   if (max_iterations < 1) return fails("max_iterations must be positive");
   return true;
@@ -384,7 +348,7 @@ SharedMaterial fit_shared_material(const StackInfo& info, const TexelBlock& bloc
   // The plain highlight first: it tells where the refinements of a model begin.
   const SharedFit plain(projection, options, Effects());
   std::vector<Values> starts;
-  for (const double roughness : {0.15, 0.35, 0.7}) {
+  for (const double roughness : {0.2, 0.35, 0.7}) {
     starts.push_back(off_neutral(1.0));
     starts.back()["roughness"] = roughness;
   }

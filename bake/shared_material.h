@@ -21,6 +21,9 @@ struct SharedMaterialOptions {
   Effects effects = effects_of(Model::kCallisto);
   // Residuals above this many robust standard deviations of Lambert's count by their absolute value.
   double robust_width = 2.0;
+  // Roughness stays at or above this: a narrower highlight falls between the lights of a stack, and a texel
+  // that one of them happens to hit says nothing of it.
+  double least_roughness = 0.15;
   // Values looked at, about: texels are thinned evenly, those that are black or without a normal left out.
   std::size_t values = 60000;
   int max_iterations = 60;

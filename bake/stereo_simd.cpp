@@ -100,6 +100,10 @@ struct Stereo {
   }
 
   HWY_INLINE Vec scaled_light(std::size_t k) const {
+    if constexpr (!kNear) {
+      const float* d = job.scaled_direction + 3 * k;
+      return {F(d[0]), F(d[1]), F(d[2])};
+    }
     const LightAt<float, kNear> light(job.lights, k, at);
     return light.direction * (light.falloff * F(job.grey_intensity[k]));
   }
@@ -202,13 +206,14 @@ struct Stereo {
     return {select(away, bent.x, unit.x), select(away, bent.y, unit.y), select(away, bent.z, unit.z)};
   }
 
-  // The grey albedo of a texel with that normal, and the variance of its residuals, robustly.
-  HWY_INLINE F grey_albedo(const Vec& normal, int rounds, F* variance) const {
+  // The grey albedo of a texel with that normal, and the variance of its residuals, robustly. From least
+  // squares on where `albedo` is negative.
+  HWY_INLINE F grey_albedo(const Vec& normal, F albedo, int rounds, F* variance) const {
     const F kClippedMean(0.5161);
-    F albedo(0.0);
-    for (int round = 0; round <= rounds; ++round) {
-      const F inverse_width =
-          F(round == 0 ? 0.0 : 1.0) / (F(job.robust_width * job.robust_width) * *variance);
+    const auto is_new = albedo < F(0.0);
+    for (int round = 0; round < rounds; ++round) {
+      const F robust = F(1.0) / (F(job.robust_width * job.robust_width) * *variance);
+      const F inverse_width = round > 0 ? robust : select(is_new, F(0.0), robust);
       F top(0.0);
       F bottom(0.0);
       F clipped(0.0);
@@ -225,16 +230,18 @@ struct Stereo {
         weights = weights + base;
       }
       albedo = at_least(top, F(0.0)) / at_least(bottom, F(1e-30));
-      if (round > 0) *variance = at_least(clipped / at_least(kClippedMean * weights, F(1e-30)), floor);
+      const F next = at_least(clipped / at_least(kClippedMean * weights, F(1e-30)), floor);
+      *variance = round > 0 ? next : select(is_new, *variance, next);
     }
     return albedo;
   }
 
-  HWY_INLINE void store_albedo(const Vec& normal, int rounds, F variance, F* sum) const {
-    const F last = grey_albedo(normal, rounds, &variance);
+  HWY_INLINE void store_albedo(const Vec& normal, F start, int rounds, F variance, F* sum) const {
+    const F last = grey_albedo(normal, start, rounds, &variance);
     const F inverse_width = F(1.0) / (F(job.robust_width * job.robust_width) * variance);
     F top[3] = {F(0.0), F(0.0), F(0.0)};
     F bottom[3] = {F(0.0), F(0.0), F(0.0)};
+    F full[3] = {F(0.0), F(0.0), F(0.0)};
     for (std::size_t k = 0; k < job.lights.count; ++k) {
       const LightAt<float, kNear> light(job.lights, k, at);
       const F cosine = at_least(dot(light.direction, normal), F(0.0)) * light.falloff;
@@ -243,16 +250,19 @@ struct Stereo {
       const std::size_t at_light = job.values.light[k];
       const float* value = job.values.value + at_light * job.values.light_stride + at;
       for (std::size_t c = 0; c < 3; ++c) {
-        const F e = cosine * F(job.lights.intensity[3 * k + c]);
+        const F intensity(job.lights.intensity[3 * k + c]);
+        const F e = cosine * intensity;
         const F v = select(w > F(0.0), F::load(value + c * job.values.channel_stride), F(0.0));
         top[c] = multiply_add(w * e, v, top[c]);
         bottom[c] = multiply_add(w * e, e, bottom[c]);
+        full[c] = multiply_add(w * intensity, intensity, full[c]);
       }
     }
     *sum = F(0.0);
     for (std::size_t c = 0; c < 3; ++c) {
+      const F least = at_least(bottom[c], F(bake::kLeastSquaredCosine) * full[c]);
       const F albedo =
-          select(bottom[c] > F(1e-30), at_least(top[c], F(0.0)) / at_least(bottom[c], F(1e-30)), F(0.0));
+          select(bottom[c] > F(1e-30), at_least(top[c], F(0.0)) / at_least(least, F(1e-30)), F(0.0));
       albedo.store(job.albedo + c * kChunk + at);
       *sum = *sum + albedo;
     }
@@ -262,6 +272,7 @@ struct Stereo {
     Estimate e = along_view();
     F state(0.0);
     Vec normal;
+    F start(-1.0);
     if (job.given_normals != nullptr) {
       normal = {F::load(job.given_normals + at), F::load(job.given_normals + kChunk + at),
                 F::load(job.given_normals + 2 * kChunk + at)};
@@ -273,13 +284,15 @@ struct Stereo {
       state = select(turned > F(0.0), F(2.0), select(e.prior_share > F(0.5), F(1.0), F(0.0)));
       const auto few = shining < F(2.5);
       state = select(few, F(3.0), state);
+      // A normal that was not turned comes with its albedo.
+      start = select(state < F(1.5), dot(e.scaled, normal), start);
       normal = {select(few, view.x, normal.x), select(few, view.y, normal.y), select(few, view.z, normal.z)};
     }
     normal.x.store(job.normals + at);
     normal.y.store(job.normals + kChunk + at);
     normal.z.store(job.normals + 2 * kChunk + at);
     F sum;
-    store_albedo(normal, job.given_normals != nullptr ? 10 : 3, e.variance, &sum);
+    store_albedo(normal, start, job.given_normals != nullptr ? 11 : 2, e.variance, &sum);
     state = select(sum > F(0.0), state, F(4.0));
     state = select(usable > F(0.0), state, F(5.0));
     state.store(job.state + at);

@@ -249,6 +249,18 @@ TEST(PhotometricStereo, ALightOnTheHorizonWithNoiseDoesLittle) {
   EXPECT_LT(std::sqrt(squares / static_cast<double>(surface.count())), 3.0);
 }
 
+TEST(PhotometricStereo, NoiseUnderGrazingLightsIsNoAlbedo) {
+  TrueStack s = lambert_sphere(8, {{1.0, 0.0, 0.0}, {-1.0, 0.0, 0.0}, {0.0, 1.0, 0.0}, {0.0, -1.0, 0.0}});
+  s.info.has_normals = true;
+  s.block.normals.assign(3 * s.block.count(), 0.0F);
+  for (std::size_t t = 0; t < s.block.count(); ++t) {
+    s.block.normals[t] = 1e-5F;
+    s.block.normals[2 * s.block.count() + t] = 1.0F;
+  }
+  std::ranges::fill(s.block.rgb, 0.01F);
+  for (const float albedo : solve(s).albedo) EXPECT_LT(albedo, 0.1F);
+}
+
 TEST(PhotometricStereo, IsTheSameForAnyNumberOfThreads) {
   const TrueStack s = lambert_sphere(40, cap_of_lights(15, 60.0));
   const Surface many = solve(s);
