@@ -6,9 +6,9 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
-#include <array>
 #include <mutex>
 
+#include "cli/measure_names.h"
 #include "cli/result_text.h"
 #include "cli/version.h"
 #include "io/image_file.h"
@@ -17,17 +17,6 @@ namespace brdfit::cli {
 namespace {
 
 using io::Json;
-
-struct MeasureName {
-  const char* key;
-  const char* title;
-};
-constexpr std::array<MeasureName, 6> kMeasures = {{{"log_ratio_pct", "log-ratio %"},
-                                                   {"slice_pct", "slice %"},
-                                                   {"relative", "relative"},
-                                                   {"cube_root", "cube root"},
-                                                   {"srgb", "sRGB"},
-                                                   {"cosine_l2", "cosine L2"}}};
 
 // A member below an object, by names; null where there is none.
 const Json& at(const Json& json, std::initializer_list<const char*> path) {

@@ -4,6 +4,7 @@
 #include <fmt/format.h>
 
 #include "cli/ladder_cost.h"
+#include "cli/measure_names.h"
 
 namespace brdfit::cli {
 namespace {
@@ -142,13 +143,10 @@ void add_selection(const fit::FitResult& result, Json& json) {
 }
 
 Json measures_to_json(const fit::Measures& m) {
-  return {{"log_ratio_pct", m.log_ratio_pct},
-          {"slice_pct", m.slice_pct},
-          {"relative", m.relative},
-          {"cube_root", m.cube_root},
-          {"srgb", m.srgb},
-          {"cosine_l2", m.cosine_l2},
-          {"cells", m.cells}};
+  Json json;
+  for (const MeasureName& measure : kMeasures) json[measure.key] = m.*measure.value;
+  json["cells"] = m.cells;
+  return json;
 }
 
 Json evaluation_to_json(const fit::Evaluation& evaluation, const render::SphereDeltaE& sphere) {
