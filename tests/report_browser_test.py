@@ -259,10 +259,9 @@ def check_width(browser, size, file):
     width, inner = browser.execute_script("return [document.scrollingElement.scrollWidth, innerWidth]")
     check(inner == size[0], f"the page is {inner} px wide, not {size[0]}")
     check(width <= inner, f"the page is {width} px wide in a window of {inner} px")
-    if size == WIDE:
-        cut = browser.execute_script(
-            "return [...document.querySelectorAll('.fit .scroll')].filter(e => e.scrollWidth > e.clientWidth).length")
-        check(cut == 0, f"{cut} lists of parameters do not fit into a wide window")
+    cut = browser.execute_script(
+        "return [...document.querySelectorAll('.fit .scroll')].filter(e => e.scrollWidth > e.clientWidth).length")
+    check(cut == 0, f"{cut} lists of parameters do not fit into a window of {inner} px")
     screenshot(browser, file)
 
 

@@ -142,19 +142,22 @@ std::string status_html(const ReportParameter& parameter) {
 
 std::string parameters_html(const ReportFit& fit) {
   if (fit.parameters.empty()) return "";
+  // The roles are those of the elements, said for browsers that forget them where rows become
+  // blocks.
   std::string html =
-      "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Parameters\"><table "
-      "class=\"parameters\">\n"
-      "<thead><tr><th scope=\"col\">parameter</th><th scope=\"col\" title=\"1.96 standard errors: intervals "
-      "that hold the truth 95 times of 100\">value ± 95% (sRGB)</th><th scope=\"col\">on "
-      "its "
-      "range</th>"
-      "<th scope=\"col\">status</th></tr></thead>\n<tbody>\n";
+      "<div class=\"scroll\" tabindex=\"0\" role=\"region\" aria-label=\"Parameters\">"
+      "<table class=\"parameters\" role=\"table\">\n<thead role=\"rowgroup\"><tr role=\"row\">"
+      "<th scope=\"col\" role=\"columnheader\">parameter</th>"
+      "<th scope=\"col\" role=\"columnheader\" "
+      "title=\"1.96 standard errors: intervals that hold the truth 95 times of 100\">value ± 95% (sRGB)</th>"
+      "<th scope=\"col\" role=\"columnheader\">on its range</th>"
+      "<th scope=\"col\" role=\"columnheader\">status</th></tr></thead>\n<tbody role=\"rowgroup\">\n";
   for (const ReportParameter& parameter : fit.parameters) {
-    html +=
-        fmt::format("<tr><th scope=\"row\">{}<small>{}</small></th><td>{}</td><td>{}</td><td>{}</td></tr>\n",
-                    breakable(parameter.name), xml_escaped(parameter.help), value_html(parameter),
-                    range_html(parameter), status_html(parameter));
+    html += fmt::format(
+        "<tr role=\"row\"><th scope=\"row\" role=\"rowheader\">{}<small>{}</small></th>"
+        "<td role=\"cell\">{}</td><td role=\"cell\">{}</td><td role=\"cell\">{}</td></tr>\n",
+        breakable(parameter.name), xml_escaped(parameter.help), value_html(parameter), range_html(parameter),
+        status_html(parameter));
   }
   return html + "</tbody>\n</table></div>\n";
 }
