@@ -19,10 +19,13 @@ using render::ReportLadder;
 using render::ReportPicture;
 using render::ReportRung;
 
+// The member of the evidence with the errors that the choice went by.
+constexpr const char* kErrors = "held_out";
+
 // The numbers of all rungs; the first begins with what the evidence calls ladder_start.
 std::vector<ReportRung> rungs_of(const Json& evidence) {
   const Json& steps = at(evidence, {"ladder"});
-  const std::optional<double> without = number_at(evidence, {"held_out", "without_pct"});
+  const std::optional<double> without = number_at(evidence, {kErrors, "without_pct"});
   const std::optional<double> free = number_at(evidence, {"free_parameters"});
   if (!steps.is_array() || !without || !free) return {};
   ReportRung first;
@@ -124,8 +127,8 @@ std::optional<ReportLadder> report_ladder(const FittedMaterial& fitted, const Ru
   ReportLadder ladder;
   ladder.rungs = rungs_of(fitted.evidence);
   if (ladder.rungs.empty()) return std::nullopt;
-  ladder.held_out_all_pct = number_at(fitted.evidence, {"held_out", "all_pct"});
-  const std::optional<double> all = number_at(fitted.evidence, {"held_out", "free_parameters_all"});
+  ladder.held_out_all_pct = number_at(fitted.evidence, {kErrors, "all_pct"});
+  const std::optional<double> all = number_at(fitted.evidence, {kErrors, "free_parameters_all"});
   if (all) ladder.free_parameters_all = static_cast<int>(*all);
   draw_rungs(fitted, pictures, ladder);
   return ladder;
