@@ -272,6 +272,22 @@ std::vector<Material> CrossValidation::materials(Groups groups) const {
   return result;
 }
 
+Material CrossValidation::fitted_to(const SampleSet& samples, Groups groups) const {
+  const Parametrisation parameters = parametrisation(groups);
+  const Targets targets = make_targets(samples, options_.loss);
+  const Problem problem(parameters, samples, targets, options_.loss);
+  std::vector<double> best;
+  double least = std::numeric_limits<double>::infinity();
+  for (const FoldFit& fit : fits_.at(groups.bits())) {
+    std::vector<double> x = parameters.from_material(fit.material);
+    const double cost = problem.cost(x);
+    if (!best.empty() && !(cost < least)) continue;
+    best = std::move(x);
+    least = cost;
+  }
+  return parameters.to_material(descend(problem, best, box_at(parameters, best), kPolish).x);
+}
+
 int CrossValidation::free_numbers(Groups groups) const {
   return static_cast<int>(parametrisation(groups).size());
 }

@@ -1,6 +1,8 @@
 // Growing and pruning a set of groups.
 #include "fit/select.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 
 namespace brdfit::fit {
@@ -17,6 +19,8 @@ constexpr std::uint64_t kKicksOfAll = 3;  // rounds
 // A group without which the error is beyond the bound by more than this share is not tried again when others
 // have gone: it will hardly be missed less.
 constexpr double kNeeded = 0.05;
+
+constexpr std::size_t kSamplesOfLadder = 2400;
 
 class Selector {
  public:
@@ -217,6 +221,18 @@ class Selector {
 
 Selection select_groups(CrossValidation& validation, Model model, const SelectionOptions& options) {
   return Selector(validation, model, options).run();
+}
+
+void fit_ladder(const CrossValidation& validation, const SampleSet& samples, Selection& selection) {
+  const SampleSet part = samples.thinned((samples.size() + kSamplesOfLadder - 1) / kSamplesOfLadder);
+  tbb::parallel_for(std::size_t{0}, selection.ladder.size() + 1, [&](std::size_t k) {
+    if (k == 0) {
+      selection.material_without = validation.fitted_to(part, selection.required);
+    } else {
+      LadderStep& step = selection.ladder[k - 1];
+      step.material = validation.fitted_to(part, step.set);
+    }
+  });
 }
 
 }  // namespace brdfit::fit

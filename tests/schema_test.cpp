@@ -334,8 +334,14 @@ TEST_F(FitSchema, WrongValuesInTheEvidenceAreRefused) {
     ["/parameters/base_color/channel_status", ["ok", "ok", "ok", "ok"]], ["/notes", [1]],
     ["/sphere_delta_e", -1], ["/sphere_delta_e_by_light", {}], ["/sphere_delta_e_by_light/90", -1],
     ["/sphere_delta_e_by_light/45", 1], ["/sphere_pixels_skipped", 0.5], ["/timings_seconds/sphere", -1],
-    ["/notes", [""]], ["/timings_seconds/fit", -1]
+    ["/notes", [""]], ["/timings_seconds/fit", -1],
+    ["/ladder_start", null], ["/ladder_start/effects", ["sheen"]],
+    ["/ladder_start/effects", ["dual_specular"]], ["/ladder_start/parameters/roughness", 2],
+    ["/ladder_start/parameters/dual_specular_opacity", 0.5], ["/ladder_start/parameters/base_color", 0.5],
+    ["/ladder/0/material", {}], ["/ladder/0/material/effects", ["clearcoat"]],
+    ["/ladder/0/material/parameters/roughness", 0], ["/ladder/0/material/parameters", {"roughness": 0.5}]
   ])");
+  ASSERT_FALSE(written[0]["fit"]["ladder"].empty());
   for (const Json& change : wrong) {
     const std::string place = "/fit" + change[0].get<std::string>();
     EXPECT_NE(complaint_with(schema_, written[0], place, change[1]), "") << change;
