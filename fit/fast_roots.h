@@ -69,15 +69,14 @@ HWY_INLINE Lanes<float> polynomial(Lanes<float> x, const double (&c)[n]) {
   return part_of_polynomial<0, n>({x, x2, x4, x4 * x4}, c);
 }
 
-// ln(ratio), of which ratio - 1 is given besides: exact where ratio is near 1. Relative error 2e-7.
-HWY_INLINE Lanes<float> log_of_ratio(Lanes<float> ratio, Lanes<float> ratio_minus_1) {
+// ln(1 + y) of y in [0, 1e37]. Relative error 2e-7.
+HWY_INLINE Lanes<float> log_of_1_plus(Lanes<float> y) {
   using F = Lanes<float>;
   // ln(1 + x) / x
   constexpr double kLog[] = {1.0,          -0.499999971, 0.333336706, -0.250011477, 0.199720497,
                              -0.165884885, 0.148347868,  -0.14159647, 0.0878726548};
-  const Parted parts = parted(ratio);
-  const F zero(0.0);
-  const F x = select(abs(parts.exponent) > zero, parts.rest, ratio_minus_1);
+  const Parted parts = parted(y + F(1.0));
+  const F x = select(parts.exponent > F(0.0), parts.rest, y);
   return multiply_add(parts.exponent, F(0.693147180559945), x * polynomial(x, kLog));
 }
 

@@ -29,11 +29,20 @@ struct Compared {
   }
 };
 
-// |ln((a + floor) / (b + floor))|.
-HWY_INLINE F log_ratio(const Compared& x) {
-  const F floor(kFloor);
-  const F inverse = reciprocal(x.b + floor);
-  return abs(log_of_ratio((x.a + floor) * inverse, x.difference * inverse));
+// (larger + floor) / (smaller + floor) - 1.
+HWY_INLINE F rise(const Compared& x) {
+  return abs(x.difference) * reciprocal(smaller(x.a, x.b) + F(kFloor));
+}
+
+// The sum of three channels' |ln((a + floor) / (b + floor))|: the logarithm of the product.
+HWY_INLINE F log_ratios(const F (&rises)[3]) {
+  const F product_may_overflow(1e12);
+  const F highest = larger(larger(rises[0], rises[1]), rises[2]);
+  if (!hn::AllFalse(F::Tag(), hn::Gt(highest.v, product_may_overflow.v))) {
+    return log_of_1_plus(rises[0]) + log_of_1_plus(rises[1]) + log_of_1_plus(rises[2]);
+  }
+  const F two = multiply_add(rises[0], rises[1], rises[0] + rises[1]);
+  return log_of_1_plus(multiply_add(two, rises[2], two + rises[2]));
 }
 
 // min(a, 1) - min(b, 1).
@@ -82,11 +91,9 @@ struct Sums {
   F weight, log_ratio, relative, cube_root, srgb, cosine_l2, clipped;
 };
 
-// root_a, root_b: twelfth roots of what is seen.
-HWY_INLINE void add(Sums& s, const Compared& f, F root_a, F root_b, F cos_i, F weight) {
-  const Compared seen = f * cos_i;
+// One channel; log-ratios are added for three at once. root_a, root_b: twelfth roots of what is seen.
+HWY_INLINE void add(Sums& s, const Compared& f, const Compared& seen, F root_a, F root_b, F weight) {
   const RootDifferences roots = root_differences(seen, root_a, root_b);
-  s.log_ratio = multiply_add(weight, log_ratio(seen), s.log_ratio);
   s.relative = multiply_add(weight, abs(f.difference) * reciprocal(f.b + F(kFloor)), s.relative);
   s.cube_root = multiply_add(weight, squared(roots.cube), s.cube_root);
   s.srgb = multiply_add(weight, squared(roots.srgb), s.srgb);
@@ -159,6 +166,7 @@ HWY_FLATTEN void sum_metrics(const fit::MetricJob& job, fit::MetricSums& sums) {
         const F root_cos = twelfth_root(cos_i);
         F r[3];
         F root_r[3];
+        F rises[3];
         for (int c = 0; c < 3; ++c) r[c] = load_r(side, c, first + k);
         const F weight = weight_at(side, r[0], first + k);
         s.weight = s.weight + weight;
@@ -169,8 +177,11 @@ HWY_FLATTEN void sum_metrics(const fit::MetricJob& job, fit::MetricSums& sums) {
         for (int c = 0; c < 3; ++c) {
           const F a = F::load(f[c].high + k);
           const Compared x = {a, r[c], (a - r[c]) + F::load(f[c].low + k)};
-          add(s, x, root_f[c] * root_cos, root_r[c] * root_cos, cos_i, weight);
+          const Compared seen = x * cos_i;
+          rises[c] = rise(seen);
+          add(s, x, seen, root_f[c] * root_cos, root_r[c] * root_cos, weight);
         }
+        s.log_ratio = multiply_add(weight, log_ratios(rises), s.log_ratio);
       }
     }
   }
@@ -197,10 +208,12 @@ HWY_FLATTEN double sum_order_gap(const fit::MetricJob& job) {
       for (std::size_t k = 0; k < kLineBlock; k += F::size) {
         const F weight = weight_at(side, load_r(side, 0, first + k), first + k);
         const F cosine = F::load(cos_i + k);
+        F rises[3];
         for (int c = 0; c < 3; ++c) {
           const Compared x = {F::load(a[c] + k), F::load(b[c] + k), F::load(difference[c] + k)};
-          s = multiply_add(weight, log_ratio(x * cosine), s);
+          rises[c] = rise(x * cosine);
         }
+        s = multiply_add(weight, log_ratios(rises), s);
       }
     }
   }

@@ -207,6 +207,19 @@ TEST_P(MetricSumsOf, EqualValuesAreZero) {
   }
 }
 
+// Ratios are multiplied before their logarithm is taken.
+TEST_P(MetricSumsOf, HugeRatiosHaveFiniteLogarithms) {
+  Random random(8);
+  Columns columns(random);
+  for (std::size_t c = 0; c < 3; ++c) {
+    std::ranges::fill(columns.f[c], 1e13 * static_cast<double>(c + 1));
+    std::ranges::fill(columns.r[0][c], 0.0F);
+  }
+  const MetricJob job = columns.job({0});
+  const double expected = expected_sums(job).log_ratio;
+  EXPECT_NEAR(sums_of(GetParam(), job).log_ratio, expected, kRounding * expected);
+}
+
 TEST_P(MetricSumsOf, OrdersAreTheirLogRatio) {
   Random random(7);
   const Columns columns(random);
