@@ -77,7 +77,10 @@ HWY_INLINE Lanes<float> log_of_1_plus(Lanes<float> y) {
                              -0.165884885, 0.148347868,  -0.14159647, 0.0878726548};
   const Parted parts = parted(y + F(1.0));
   const F x = select(parts.exponent > F(0.0), parts.rest, y);
-  return multiply_add(parts.exponent, F(0.693147180559945), x * polynomial(x, kLog));
+  // Powers of small numbers would be denormal, which is slow; there the line is enough.
+  const F base = select(abs(x) > F(1e-4), x, F(0.0));
+  const F quotient = multiply_add(F(-0.5), x - base, polynomial(base, kLog));
+  return multiply_add(parts.exponent, F(0.693147180559945), x * quotient);
 }
 
 // x^(1/12) of x >= 0; that of 1e-28 for what is smaller. Relative error 2e-7.
