@@ -12,8 +12,8 @@ enum class Isa;
 
 namespace brdfit::fit {
 
-// What f is compared with, column by column. Entries that are left out of every sum must be readable and
-// finite all the same.
+// What f is compared with, column by column. Entries that are left out of every sum must be readable all the
+// same.
 struct MetricSide {
   const float* r[3] = {};  // entry k is r[c][step k]; negative where nothing was measured: left out
   int step = 1;            // or -1

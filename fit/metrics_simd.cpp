@@ -171,7 +171,7 @@ HWY_FLATTEN void sum_metrics(const fit::MetricJob& job, fit::MetricSums& sums) {
         const F weight = weight_at(side, r[0], first + k);
         s.weight = s.weight + weight;
         for (int c = 0; c < 3; ++c) {
-          r[c] = larger(r[c], zero);
+          r[c] = select(weight > zero, r[c], zero);
           root_r[c] = twelfth_root(r[c]);
         }
         for (int c = 0; c < 3; ++c) {

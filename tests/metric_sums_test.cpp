@@ -186,6 +186,7 @@ TEST_P(MetricSumsOf, EntriesThatAreLeftOutDoNotChange) {
     for (std::size_t k = 0; k < kCount; ++k) {
       if (k >= 5 && k < kCount - 9 && columns.r[0][c][k] >= 0.0F) continue;
       columns.f[c][k] = 1e6;
+      columns.r[0][c][k] = columns.r[0][c][k] < 0.0F ? -1e38F : 3e38F;
     }
   }
   const MetricSums after = sums_of(GetParam(), job);
