@@ -167,6 +167,11 @@ TEST_F(TableRun, ThreadsAndFoldersDoNotChangeAByte) {
   ASSERT_EQ(run(table("one", "--threads 1 -q")).exit_code, 0);
   ASSERT_EQ(run(table("two", "--threads 2 -q")).exit_code, 0);
   EXPECT_EQ(contents("one"), contents("two"));
+  // Where the loss is chosen too, by rendered spheres.
+  const std::string loss = "-q --model burley --loss auto --threads ";
+  ASSERT_EQ(run(table("loss-one", loss + "1")).exit_code, 0);
+  ASSERT_EQ(run(table("loss-two", loss + "2")).exit_code, 0);
+  EXPECT_EQ(contents("loss-one"), contents("loss-two"));
 }
 
 TEST_F(TableRun, AFinishedResultIsNotFittedAgain) {
