@@ -6,13 +6,12 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <optional>
-#include <string_view>
 
 #include "brdf/models.h"
 #include "brdf/simd/dispatch.h"
 #include "fit/descend.h"
 #include "fit/loss_kernel.h"
+#include "fit/plateau.h"
 #include "fit/starts.h"
 
 namespace brdfit::fit {
@@ -36,24 +35,6 @@ Box box_at(const Parametrisation& parametrisation, const std::vector<double>& x)
     (x[parametrisation.one_signed.front()] >= 0.0 ? box.lower : box.upper)[k] = 0.0;
   }
   return box;
-}
-
-std::optional<std::size_t> index_of(const Parametrisation& parametrisation, std::string_view name) {
-  const auto found = std::ranges::find(parametrisation.free, name, &FreeParameter::name);
-  if (found == parametrisation.free.end()) return std::nullopt;
-  return static_cast<std::size_t>(found - parametrisation.free.begin());
-}
-
-// A second lobe as rough as can be, which is where roughness times scale is 1 or more, does not change with
-// its scale: a descent that gets there stays. Takes the scale back to where it counts. Returns whether it was
-// beyond.
-bool leave_plateau(const Parametrisation& parametrisation, std::vector<double>& x) {
-  constexpr double kSecondRoughness = 0.85;
-  const auto roughness = index_of(parametrisation, "roughness");
-  const auto scale = index_of(parametrisation, "dual_specular_roughness_scale");
-  if (!roughness || !scale || x[*roughness] * x[*scale] < 1.0) return false;
-  x[*scale] = std::max(kSecondRoughness / x[*roughness], 1.0);
-  return true;
 }
 
 // A fresh value for a number that has one, with the other sign where it has a sign.

@@ -16,6 +16,11 @@ constexpr int kManyStarts = 3;
 constexpr int kStartsOfAll = 8;
 constexpr std::uint64_t kKicksOfAll = 3;  // rounds
 
+// The error may rise by this share of the threshold when groups are removed. Less than all of it: fits of few
+// samples overfit and blocks differ, so what a group is worth is seen to be less than it is, and on cells that
+// are new the set must still be within the threshold of everything.
+constexpr double kRemovalShare = 0.25;
+
 // A group without which the error is beyond the bound by more than this share is not tried again when others
 // have gone: it will hardly be missed less.
 constexpr double kNeeded = 0.05;
@@ -184,7 +189,7 @@ class Selector {
   double bound() const {
     double least = std::min(validation_.error(set_), least_);
     if (validation_.knows(options_.usable)) least = std::min(least, validation_.error(options_.usable));
-    return (1.0 + options_.threshold) * least;
+    return (1.0 + kRemovalShare * options_.threshold) * least;
   }
 
   bool prune() {
