@@ -133,7 +133,8 @@ class Fitter {
         parametrisation_(make_parametrisation(start_material(options), freedom_of(options))),
         data_(std::move(samples), options),
         on_part_(parametrisation_, data_.part, data_.part_targets, options.loss),
-        on_part_wide_(parametrisation_, data_.part, data_.part_wide_targets, options.loss),
+        on_part_wide_(parametrisation_, data_.part, data_.part_wide_targets, options.loss,
+                      Precision::kSingle),
         on_all_(parametrisation_, data_.all, data_.all_targets, options.loss) {}
 
   FitResult run() {
