@@ -175,12 +175,14 @@ struct RobustLogRatio {
   V width_squared;
   V clipped_inverse_squared;
   V clipped_squared;
+  bool curvature;
 
   explicit HWY_INLINE RobustLogRatio(const GramJob& job)
       : inverse_width_squared(1.0 / (job.robust_width * job.robust_width)),
         width_squared(job.robust_width * job.robust_width),
         clipped_inverse_squared(1.0 / (job.clipped_width * job.clipped_width)),
-        clipped_squared(job.clipped_width * job.clipped_width) {}
+        clipped_squared(job.clipped_width * job.clipped_width),
+        curvature(job.curvature) {}
 
   HWY_INLINE Counted<S> count(V y, V, V inverse_cos_i, V target, V clipped_target, V share) const {
     const V one(1.0);
@@ -204,9 +206,15 @@ struct RobustLogRatio {
     const V cost = inverse_aboves * (width_squared * t * above_v + share * (clipped_squared * v * above_t));
     const V rest = inverse * aboves;  // 1 / (shifted roots)
     const V slope = rest * roots;
-    const V weighted = slope * (rest * shifted * root_v);
-    const V clipped_factor = share * clipped_slope * (rest * shifted * root_t);
-    return {weighted * slope + clipped_factor * clipped_slope, weighted * r + clipped_factor * u, cost};
+    const V weight = rest * shifted * root_v;
+    const V clipped_weight = rest * shifted * root_t;
+    const V weighted = slope * weight;
+    const V clipped_factor = share * clipped_slope * clipped_weight;
+    const V gradient = weighted * r + clipped_factor * u;
+    if (!curvature) return {weighted * slope + clipped_factor * clipped_slope, gradient, cost};
+    const V squares =
+        weighted * slope * weight * weight + clipped_factor * clipped_slope * clipped_weight * clipped_weight;
+    return {kernel::at_least(squares, V(1e-30)), gradient, cost};
   }
 };
 
@@ -322,11 +330,11 @@ struct GramOf {
 
 template <template <class> class ModelRows, bool kMean>
 void gram_of(const GramJob& job, Gram& gram) {
-  if (!job.curvature && job.loss == BRDFIT_LOSS_LOG_RATIO && job.robust_width > 0.0 &&
-      job.clipped_width > 0.0) {
+  if (job.loss == BRDFIT_LOSS_LOG_RATIO && job.robust_width > 0.0 && job.clipped_width > 0.0) {
     // The mean of whole terms is too rare to be compiled once more.
     if constexpr (!kMean) {
-      if (job.single != nullptr) return GramOf<float, ModelRows, RobustLogRatio, kMean>::run(job, gram);
+      if (job.single != nullptr && !job.curvature)
+        return GramOf<float, ModelRows, RobustLogRatio, kMean>::run(job, gram);
     }
     return GramOf<double, ModelRows, RobustLogRatio, kMean>::run(job, gram);
   }

@@ -191,10 +191,15 @@ Eigen::MatrixXd chained(const Gram& sums, const ChannelLinks& chain, std::size_t
   const auto side = static_cast<Eigen::Index>(parameters) + 1;
   Eigen::MatrixXd total = Eigen::MatrixXd::Zero(side, side);
   for (std::size_t c = 0; c < 3; ++c) {
-    for (const Link& a : chain[c]) {
-      for (const Link& b : chain[c]) {
+    const std::vector<Link>& all = chain[c];
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const Link& a = all[i];
+      for (std::size_t j = 0; j <= i; ++j) {
+        const Link& b = all[j];
         const auto [row, column] = std::minmax(a.coefficient, b.coefficient);
-        total(a.number, b.number) += a.slope * b.slope * sums.channel[c][row * kGramSide + column];
+        const double product = a.slope * b.slope * sums.channel[c][row * kGramSide + column];
+        total(a.number, b.number) += product;
+        if (i != j) total(b.number, a.number) += product;
       }
     }
   }

@@ -47,10 +47,14 @@ class Settling {
   // What is settled no longer ties others.
   void look() {
     const std::vector<double>& x = settled_.solution.x;
-    const Eigen::MatrixXd gram = problem_.curvature(x);
-    ++settled_.evaluations;
-    settled_.identifiability = identify(parametrisation_, x, gram, settled_.at_default);
-    add_hidden_ties(parametrisation_, x, settled_.box, gram, settled_.at_default, settled_.identifiability);
+    if (x != curvature_at_) {
+      curvature_ = problem_.curvature(x);
+      curvature_at_ = x;
+      ++settled_.evaluations;
+    }
+    settled_.identifiability = identify(parametrisation_, x, curvature_, settled_.at_default);
+    add_hidden_ties(parametrisation_, x, settled_.box, curvature_, settled_.at_default,
+                    settled_.identifiability);
   }
 
   std::vector<std::string> public_order() const {
@@ -140,6 +144,8 @@ class Settling {
   const std::vector<double> defaults_;
   const double limit_;
   Settled settled_;
+  Eigen::MatrixXd curvature_;
+  std::vector<double> curvature_at_;
   Identifiability first_;
   int failures_ = 0;
 };
