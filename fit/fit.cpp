@@ -213,7 +213,8 @@ class Fitter {
 
   void look_at_evidence() {
     if (!published_.note.empty()) result_.notes.push_back(published_.note);
-    Settled settled = settle_unidentifiable(on_all_, published_.candidate.solution, published_.candidate.box);
+    Settled settled = settle_unidentifiable(on_all_, on_all_rough_, published_.candidate.solution,
+                                            published_.candidate.box);
     mark_undecided(settled);
     result_.evaluations += settled.evaluations;
     const Solution& solution = settled.solution;

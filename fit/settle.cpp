@@ -18,8 +18,9 @@ constexpr int kMostFailures = 3;
 
 class Settling {
  public:
-  Settling(const Problem& problem, const Solution& solution, const Box& box)
+  Settling(const Problem& problem, const Problem& rough, const Solution& solution, const Box& box)
       : problem_(problem),
+        rough_(rough),
         parametrisation_(problem.parametrisation()),
         defaults_(parametrisation_.from_material(Material(parametrisation_.start.model()))),
         limit_(solution.cost * (1.0 + kSettlingShare)) {
@@ -92,8 +93,11 @@ class Settling {
     trial.cost = problem_.cost(x);
     ++settled_.evaluations;
     if (!(trial.cost <= limit_) && failures_ < kMostFailures) {
-      trial = descend(problem_, x, box, kSettling);
-      settled_.evaluations += trial.evaluations;
+      DescentOptions descent = kSettling;
+      descent.goal = limit_;
+      trial = descend(rough_, x, box, descent);
+      trial.cost = problem_.cost(trial.x);
+      settled_.evaluations += trial.evaluations + 1;
     }
     if (!(trial.cost <= limit_)) {
       ++failures_;
@@ -140,6 +144,7 @@ class Settling {
   }
 
   const Problem& problem_;
+  const Problem& rough_;
   const Parametrisation& parametrisation_;
   const std::vector<double> defaults_;
   const double limit_;
@@ -152,8 +157,13 @@ class Settling {
 
 }  // namespace
 
+Settled settle_unidentifiable(const Problem& problem, const Problem& rough, const Solution& solution,
+                              const Box& box) {
+  return Settling(problem, rough, solution, box).run();
+}
+
 Settled settle_unidentifiable(const Problem& problem, const Solution& solution, const Box& box) {
-  return Settling(problem, solution, box).run();
+  return settle_unidentifiable(problem, problem, solution, box);
 }
 
 }  // namespace brdfit::fit
