@@ -32,6 +32,7 @@ constexpr std::size_t kRefined = 2;  // starts that are refined on all samples
 
 // Candidates are compared after a brief descent; only the best is carried to its minimum.
 constexpr DescentOptions kBrief = {8, 1e-4, 1e-4};
+constexpr DescentOptions kNearby = {60, 1e-5, 1e-4};
 constexpr DescentOptions kThorough = {60, 1e-7, 1e-4};
 
 // A directional albedo above this is more than the quadrature's error above 1.
@@ -133,8 +134,10 @@ class Fitter {
         parametrisation_(make_parametrisation(start_material(options), freedom_of(options))),
         data_(std::move(samples), options),
         on_part_(parametrisation_, data_.part, data_.part_targets, options.loss),
-        on_part_wide_(parametrisation_, data_.part, data_.part_wide_targets, options.loss),
-        on_all_(parametrisation_, data_.all, data_.all_targets, options.loss) {}
+        on_part_wide_(parametrisation_, data_.part, data_.part_wide_targets, options.loss,
+                      Precision::kSingle),
+        on_all_(parametrisation_, data_.all, data_.all_targets, options.loss),
+        on_all_rough_(parametrisation_, data_.all, data_.all_targets, options.loss, Precision::kSingle) {}
 
   FitResult run() {
     result_.options = options_;
@@ -183,16 +186,17 @@ class Fitter {
     }
     tbb::parallel_for(std::size_t{0}, refined.size(), [&](std::size_t k) {
       Candidate& candidate = refined[k].candidate;
-      candidate.solution = descend(on_all_, candidate.solution.x, candidate.box, kBrief);
+      candidate.solution = descend(on_all_rough_, candidate.solution.x, candidate.box, kBrief);
     });
     for (const Decided& decided : refined) result_.evaluations += decided.candidate.solution.evaluations;
     published_ =
         *std::ranges::min_element(refined, {}, [](const Decided& d) { return d.candidate.solution.cost; });
     Solution& solution = published_.candidate.solution;
     // Near the minimum already, Ceres has little left to do.
-    const Solution near = descend(on_all_, solution.x, published_.candidate.box, kThorough);
+    const Solution rough = descend(on_all_rough_, solution.x, published_.candidate.box, kNearby);
+    const Solution near = descend(on_all_, rough.x, published_.candidate.box, kThorough);
     solution = solve_pinning(on_all_, near.x, published_.candidate.box, {});
-    result_.evaluations += near.evaluations + solution.evaluations;
+    result_.evaluations += rough.evaluations + near.evaluations + solution.evaluations;
   }
 
   // Metallic 0 was kept where another value fits as well: that ties it to specular, whatever stands at x.
@@ -209,7 +213,8 @@ class Fitter {
 
   void look_at_evidence() {
     if (!published_.note.empty()) result_.notes.push_back(published_.note);
-    Settled settled = settle_unidentifiable(on_all_, published_.candidate.solution, published_.candidate.box);
+    Settled settled = settle_unidentifiable(on_all_, on_all_rough_, published_.candidate.solution,
+                                            published_.candidate.box);
     mark_undecided(settled);
     result_.evaluations += settled.evaluations;
     const Solution& solution = settled.solution;
@@ -264,6 +269,7 @@ class Fitter {
   Problem on_part_;
   Problem on_part_wide_;
   Problem on_all_;
+  Problem on_all_rough_;  // the same in single precision
   std::vector<Candidate> candidates_;
   Decided published_;
   FitResult result_;
@@ -389,6 +395,7 @@ FitResult fit(const MeasuredTable& table, const FitOptions& options) {
       selection = select_groups(validation, options.model, choice_of(options));
       chosen.groups = selection->chosen;
       seeds = validation.materials(selection->chosen);
+      fit_ladder(validation, drawn.samples, *selection);
     }
   }
   const double select_seconds = watch.lap_seconds();
