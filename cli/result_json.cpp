@@ -111,10 +111,7 @@ Json sample_size_to_json(const fit::SampleSize& size) {
   Json trials = Json::array();
   for (const fit::SizeTrial& trial : size.trials) {
     Json json = {{"samples", trial.samples}, {"held_out_pct", trial.held_out_pct}};
-    if (!trials.empty()) {
-      json["change_pct"] = trial.change_pct;
-      json["standard_error_pct"] = trial.standard_error_pct;
-    }
+    if (!trials.empty()) json["standard_error_pct"] = trial.standard_error_pct;
     trials.push_back(json);
   }
   return {{"trials", trials}, {"check_cells", size.check_cells}, {"converged", size.converged}};
