@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <stdexcept>
 
+#include "cli/measure_names.h"
 #include "cli/result_text.h"
 #include "fit/metrics.h"
 #include "measured/symmetry.h"
@@ -163,14 +164,12 @@ std::vector<std::string> candidate_lines(const render::Subject& candidate, const
                                   ? fit::evaluate(*candidate.material(), *reference)
                                   : fit::evaluate(*candidate.table(), *reference);
     lines.emplace_back("error\tslice | table");
-    lines.push_back(
-        fmt::format("log-ratio %\t{:.2f} | {:.2f}", e.slice.log_ratio_pct, e.table.log_ratio_pct));
-    lines.push_back(fmt::format("slice %\t{:.2f} | {:.2f}", e.slice.slice_pct, e.table.slice_pct));
-    lines.push_back(fmt::format("relative\t{:.3f} | {:.3f}", e.slice.relative, e.table.relative));
-    lines.push_back(fmt::format("cube root\t{:.4f} | {:.4f}", e.slice.cube_root, e.table.cube_root));
-    lines.push_back(fmt::format("sRGB\t{:.4f} | {:.4f}", e.slice.srgb, e.table.srgb));
-    lines.push_back(fmt::format("cosine L2\t{:.3g} | {:.3g}", e.slice.cosine_l2, e.table.cosine_l2));
-    lines.push_back(fmt::format("sphere dE\t{:.2f}", render::SphereJudge(*reference)(candidate).mean));
+    for (const MeasureName& measure : kMeasures) {
+      lines.push_back(std::string(measure.title) + "\t" +
+                      measure_texts(measure, e.slice.*measure.value, e.table.*measure.value, " | "));
+    }
+    lines.push_back(std::string(kSphereTitle) + "\t" +
+                    sphere_text(render::SphereJudge(*reference)(candidate).mean));
   }
   if (candidate.material() == nullptr) return lines;
   if (!lines.empty()) lines.emplace_back();

@@ -6,9 +6,12 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
-#include <array>
+#include <iterator>
 #include <mutex>
 
+#include "cli/json_at.h"
+#include "cli/measure_names.h"
+#include "cli/report_ladder.h"
 #include "cli/result_text.h"
 #include "cli/version.h"
 #include "io/image_file.h"
@@ -18,39 +21,18 @@ namespace {
 
 using io::Json;
 
-struct MeasureName {
-  const char* key;
-  const char* title;
-};
-constexpr std::array<MeasureName, 6> kMeasures = {{{"log_ratio_pct", "log-ratio %"},
-                                                   {"slice_pct", "slice %"},
-                                                   {"relative", "relative"},
-                                                   {"cube_root", "cube root"},
-                                                   {"srgb", "sRGB"},
-                                                   {"cosine_l2", "cosine L2"}}};
+constexpr int kRungSize = 128;  // pixels
 
-// A member below an object, by names; null where there is none.
-const Json& at(const Json& json, std::initializer_list<const char*> path) {
-  static const Json kNull;
-  const Json* value = &json;
-  for (const char* key : path) {
-    if (!value->is_object()) return kNull;
-    const auto member = value->find(key);
-    if (member == value->end()) return kNull;
-    value = &*member;
-  }
-  return *value;
-}
-
-std::optional<double> number_at(const Json& json, std::initializer_list<const char*> path) {
-  const Json& value = at(json, path);
-  return value.is_number() ? std::optional<double>(value.get<double>()) : std::nullopt;
-}
-
-std::string text_at(const Json& json, std::initializer_list<const char*> path) {
-  const Json& value = at(json, path);
-  if (value.is_string()) return value.get<std::string>();
-  return value.is_null() ? "" : value.dump();
+// The standard errors of a parameter: one number, a list of them, or null.
+std::vector<std::optional<double>> standard_errors(const Json& state) {
+  const Json& errors = at(state, {"standard_error"});
+  const auto number = [](const Json& error) {
+    return error.is_number() ? std::optional(error.get<double>()) : std::nullopt;
+  };
+  std::vector<std::optional<double>> result;
+  if (errors.is_number()) result.push_back(number(errors));
+  if (errors.is_array()) std::ranges::transform(errors, std::back_inserter(result), number);
+  return result;
 }
 
 render::ReportParameter report_parameter(const FittedMaterial& fitted, const ParameterInfo& info) {
@@ -63,7 +45,10 @@ render::ReportParameter report_parameter(const FittedMaterial& fitted, const Par
   parameter.upper = info.upper;
   parameter.default_value = info.default_value;
   parameter.srgb8 = srgb_text(fitted.material, info);
-  parameter.status = text_at(fitted.evidence, {"parameters", parameter.name.c_str(), "status"});
+  const Json& state = at(fitted.evidence, {"parameters", parameter.name.c_str()});
+  parameter.status = text_at(state, {"status"});
+  parameter.standard_errors = standard_errors(state);
+  parameter.reason = text_at(state, {"reason"});
   return parameter;
 }
 
@@ -84,6 +69,24 @@ std::vector<std::pair<std::string, std::string>> provenance_of(const FittedMater
   add("observations", {"observations"});
   add("solver", {"termination"});
   return result;
+}
+
+std::vector<render::ReportLoss> losses_of(const Json& evidence) {
+  std::vector<render::ReportLoss> losses;
+  for (const Json& trial : at(evidence, {"losses"})) {
+    const std::optional<double> delta_e = number_at(trial, {"sphere_delta_e"});
+    if (delta_e) losses.push_back({text_at(trial, {"loss"}), *delta_e, at(trial, {"kept"}) == true});
+  }
+  return losses;
+}
+
+std::vector<render::ReportCorrelation> correlations_of(const Json& evidence) {
+  std::vector<render::ReportCorrelation> pairs;
+  for (const Json& pair : at(evidence, {"correlated"})) {
+    const std::optional<double> correlation = number_at(pair, {"correlation"});
+    if (correlation) pairs.push_back({text_at(pair, {"first"}), text_at(pair, {"second"}), *correlation});
+  }
+  return pairs;
 }
 
 render::ReportPicture report_picture(ComparisonPicture drawn) {
@@ -119,9 +122,9 @@ render::ReportFit report_fit(const FittedMaterial& fitted) {
   for (const ParameterInfo& info : parameters_of(fitted.material.model())) {
     if (fitted.material.effects().has(info.effect)) fit.parameters.push_back(report_parameter(fitted, info));
   }
-  for (const Json& note : at(evidence, {"notes"})) {
-    if (note.is_string()) fit.notes.push_back(note.get<std::string>());
-  }
+  fit.notes = texts_at(evidence, {"notes"});
+  fit.losses = losses_of(evidence);
+  fit.correlated = correlations_of(evidence);
   if (const Json& timings = at(evidence, {"timings_seconds"}); timings.is_object()) {
     for (const auto& [phase, seconds] : timings.items()) {
       if (seconds.is_number()) fit.timings_seconds.emplace_back(phase, seconds.get<double>());
@@ -150,8 +153,14 @@ render::ReportMaterial report_material(const ResultGroup& group, const ReportOpt
     material.warnings = cell_warnings(reference->table->table);
     columns.push_back({"measured", reference->subject(), reference_lines(reference->table->table)});
   }
+  RungPictures rungs = {slice_options_of(options.comparison.slice, kRungSize), options.comparison.view};
+  if (reference) {
+    rungs.measured = &reference->table->table;
+    rungs.slice.grid = rungs.measured->grid();
+  }
   for (const FittedMaterial& fitted : group.fits) {
     material.fits.push_back(report_fit(fitted));
+    material.fits.back().ladder = report_ladder(fitted, rungs);
     const bool same_model =
         std::ranges::count(group.fits, fitted.material.model(),
                            [](const FittedMaterial& f) { return f.material.model(); }) > 1;

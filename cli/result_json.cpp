@@ -6,6 +6,8 @@
 #include <utility>
 
 #include "cli/ladder_cost.h"
+#include "cli/measure_names.h"
+#include "io/material_json.h"
 
 namespace brdfit::cli {
 namespace {
@@ -125,7 +127,8 @@ Json ladder_to_json(const fit::Selection& selection) {
                       {"held_out_before_pct", step.held_out_before_pct},
                       {"held_out_after_pct", step.held_out_after_pct},
                       {"standard_error_pct", step.standard_error_pct},
-                      {"parameters", step.parameters}});
+                      {"parameters", step.parameters},
+                      {"material", io::effects_and_values_to_json(step.material)}});
   }
   return ladder;
 }
@@ -195,17 +198,15 @@ void add_choices(const JudgedFit& judged, Json& json) {
   json["groups"] = fit::names_of_groups(result.options.model, result.groups);
   if (!result.selection) return;
   json["selection"] = selection_to_json(*result.selection);
+  json["ladder_start"] = io::effects_and_values_to_json(result.selection->material_without);
   json["ladder"] = ladder_to_json(*result.selection);
 }
 
 Json measures_to_json(const fit::Measures& m) {
-  return {{"log_ratio_pct", m.log_ratio_pct},
-          {"slice_pct", m.slice_pct},
-          {"relative", m.relative},
-          {"cube_root", m.cube_root},
-          {"srgb", m.srgb},
-          {"cosine_l2", m.cosine_l2},
-          {"cells", m.cells}};
+  Json json;
+  for (const MeasureName& measure : kMeasures) json[measure.key] = m.*measure.value;
+  json["cells"] = m.cells;
+  return json;
 }
 
 Json evaluation_to_json(const fit::Evaluation& evaluation, const render::SphereDeltaE& sphere) {

@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include "cli/measure_names.h"
 #include "io/json.h"
 
 namespace brdfit::cli {
@@ -22,18 +23,18 @@ struct MeasureColumn {
 
 // Every error measure, less is better.
 inline constexpr std::array<MeasureColumn, 14> kMeasureColumns = {
-    {{"slice_log_ratio_pct", "slice", "log_ratio_pct"},
-     {"table_log_ratio_pct", "table", "log_ratio_pct"},
-     {"slice_slice_pct", "slice", "slice_pct"},
-     {"table_slice_pct", "table", "slice_pct"},
-     {"slice_relative", "slice", "relative"},
-     {"table_relative", "table", "relative"},
-     {"slice_cube_root", "slice", "cube_root"},
-     {"table_cube_root", "table", "cube_root"},
-     {"slice_srgb", "slice", "srgb"},
-     {"table_srgb", "table", "srgb"},
-     {"slice_cosine_l2", "slice", "cosine_l2"},
-     {"table_cosine_l2", "table", "cosine_l2"},
+    {{"slice_log_ratio_pct", "slice", kMeasures[0].key},
+     {"table_log_ratio_pct", "table", kMeasures[0].key},
+     {"slice_slice_pct", "slice", kMeasures[1].key},
+     {"table_slice_pct", "table", kMeasures[1].key},
+     {"slice_relative", "slice", kMeasures[2].key},
+     {"table_relative", "table", kMeasures[2].key},
+     {"slice_cube_root", "slice", kMeasures[3].key},
+     {"table_cube_root", "table", kMeasures[3].key},
+     {"slice_srgb", "slice", kMeasures[4].key},
+     {"table_srgb", "table", kMeasures[4].key},
+     {"slice_cosine_l2", "slice", kMeasures[5].key},
+     {"table_cosine_l2", "table", kMeasures[5].key},
      {"sphere_delta_e", "", "sphere_delta_e"},
      {"reciprocity_gap_pct", "", "reciprocity_gap_pct"}}};
 

@@ -7,6 +7,7 @@
 #include <algorithm>
 
 #include "cli/ladder_cost.h"
+#include "cli/measure_names.h"
 #include "io/material_json.h"
 
 namespace brdfit::cli {
@@ -98,28 +99,27 @@ std::string format_table(const std::vector<std::string>& heading,
 }
 
 std::vector<std::string> measure_heading() {
-  return {"on", "log-ratio %", "slice %", "relative", "cube root", "sRGB", "cosine L2", "sphere dE"};
+  std::vector<std::string> heading = {"on"};
+  for (const MeasureName& measure : kMeasures) heading.emplace_back(measure.title);
+  heading.emplace_back(kSphereTitle);
+  return heading;
 }
 
 std::vector<std::string> measure_cells(const fit::Evaluation& evaluation,
                                        const render::SphereDeltaE& sphere) {
   // One row per model and place would double the table: slice and table stand side by side in each cell.
-  const fit::Measures& s = evaluation.slice;
-  const fit::Measures& t = evaluation.table;
-  return {"slice|table",
-          fmt::format("{:.2f}|{:.2f}", s.log_ratio_pct, t.log_ratio_pct),
-          fmt::format("{:.2f}|{:.2f}", s.slice_pct, t.slice_pct),
-          fmt::format("{:.3f}|{:.3f}", s.relative, t.relative),
-          fmt::format("{:.4f}|{:.4f}", s.cube_root, t.cube_root),
-          fmt::format("{:.4f}|{:.4f}", s.srgb, t.srgb),
-          fmt::format("{:.3g}|{:.3g}", s.cosine_l2, t.cosine_l2),
-          fmt::format("{:.2f}", sphere.mean)};
+  std::vector<std::string> cells = {"slice|table"};
+  for (const MeasureName& measure : kMeasures) {
+    cells.push_back(measure_texts(measure, evaluation.slice.*measure.value, evaluation.table.*measure.value));
+  }
+  cells.push_back(sphere_text(sphere.mean));
+  return cells;
 }
 
 std::string format_errors(std::span<const JudgedFit> results) {
   std::vector<std::string> heading = {"model", "free"};
   std::ranges::copy(measure_heading(), std::back_inserter(heading));
-  heading.emplace_back("gap %");
+  heading.emplace_back(kGapTitle);
   heading.emplace_back("seconds");
   std::vector<std::vector<std::string>> rows;
   for (const JudgedFit& judged : results) {
@@ -127,7 +127,7 @@ std::string format_errors(std::span<const JudgedFit> results) {
     std::vector<std::string> row = {std::string(title_of(result.material.model())),
                                     std::to_string(result.free_parameters)};
     std::ranges::copy(measure_cells(result.evaluation, judged.sphere.delta_e), std::back_inserter(row));
-    row.push_back(fmt::format("{:.2f}", result.evaluation.reciprocity_gap_pct));
+    row.push_back(gap_text(result.evaluation.reciprocity_gap_pct));
     row.push_back(fmt::format("{:.3f}", judged.total_seconds()));
     rows.push_back(std::move(row));
   }
@@ -181,7 +181,7 @@ std::string format_ladder(const fit::FitResult& result) {
              "{}: effects by the error on blocks of angles ({} folds, threshold {:g}%), the least of many\n",
              title_of(result.material.model()), selection.held_out.folds_pct.size(),
              100.0 * selection.threshold) +
-         format_table({"step", "log-ratio %", "difference", "free", "ns"}, rows);
+         format_table({"step", kMeasures[0].title, "difference", "free", "ns"}, rows);
 }
 
 std::string format_timings(std::span<const JudgedFit> results, double load_seconds, double floor_seconds,

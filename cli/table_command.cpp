@@ -8,6 +8,7 @@
 #include "cli/database_run.h"
 #include "cli/fit_options.h"
 #include "cli/fit_request.h"
+#include "cli/measure_names.h"
 #include "cli/result_json.h"
 #include "cli/result_text.h"
 #include "cli/sphere_judge.h"
@@ -180,14 +181,14 @@ void print_rows(const CommonOptions& common, const std::vector<Row>& rows,
   }
   std::vector<std::string> heading = {"file", "candidate"};
   std::ranges::copy(measure_heading(), std::back_inserter(heading));
-  heading.emplace_back("gap %");
+  heading.emplace_back(kGapTitle);
   heading.emplace_back("seconds");
   std::vector<std::vector<std::string>> cells;
   for (const auto* group : {&rows, &mean_rows}) {
     for (const Row& row : *group) {
       std::vector<std::string> line = {group == &rows ? base_name(row.file) : row.file, row.candidate};
       std::ranges::copy(measure_cells(row.evaluation, row.sphere), std::back_inserter(line));
-      line.push_back(fmt::format("{:.2f}", row.evaluation.reciprocity_gap_pct));
+      line.push_back(gap_text(row.evaluation.reciprocity_gap_pct));
       line.push_back(fmt::format("{:.3f}", row.seconds));
       cells.push_back(std::move(line));
     }

@@ -7,6 +7,7 @@
 #include <functional>
 
 #include "cli/common.h"
+#include "cli/measure_names.h"
 #include "cli/result_text.h"
 #include "cli/version.h"
 #include "io/atomic_file.h"
@@ -22,21 +23,19 @@ constexpr const char* kTableFiles[] = {"table.txt", "table.csv", "table.json", "
 
 // The measures side by side, slice|table, as `fit` prints them.
 Cells cells_of(const MeasureValues& v) {
-  return {fmt::format("{:.2f}|{:.2f}", v[0], v[1]),
-          fmt::format("{:.2f}|{:.2f}", v[2], v[3]),
-          fmt::format("{:.3f}|{:.3f}", v[4], v[5]),
-          fmt::format("{:.4f}|{:.4f}", v[6], v[7]),
-          fmt::format("{:.4f}|{:.4f}", v[8], v[9]),
-          fmt::format("{:.3g}|{:.3g}", v[10], v[11]),
-          fmt::format("{:.2f}", v[12]),
-          fmt::format("{:.2f}", v[13])};
+  Cells cells;
+  for (std::size_t k = 0; k < kMeasures.size(); ++k) {
+    cells.push_back(measure_texts(kMeasures[k], v[2 * k], v[2 * k + 1]));
+  }
+  cells.push_back(sphere_text(v[12]));
+  cells.push_back(gap_text(v[13]));
+  return cells;
 }
 
 Cells heading_of(Cells front) {
-  for (const char* name :
-       {"log-ratio %", "slice %", "relative", "cube root", "sRGB", "cosine L2", "sphere dE", "gap %"}) {
-    front.emplace_back(name);
-  }
+  for (const MeasureName& measure : kMeasures) front.emplace_back(measure.title);
+  front.emplace_back(kSphereTitle);
+  front.emplace_back(kGapTitle);
   return front;
 }
 

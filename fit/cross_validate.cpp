@@ -6,12 +6,11 @@
 #include <algorithm>
 #include <cmath>
 #include <numeric>
-#include <optional>
-#include <string_view>
 
 #include "fit/descend.h"
 #include "fit/explore.h"
 #include "fit/log_ratio.h"
+#include "fit/plateau.h"
 #include "fit/starts.h"
 
 namespace brdfit::fit {
@@ -35,24 +34,6 @@ Box box_at(const Parametrisation& parametrisation, const std::vector<double>& x)
     (x[parametrisation.one_signed.front()] >= 0.0 ? box.lower : box.upper)[k] = 0.0;
   }
   return box;
-}
-
-std::optional<std::size_t> index_of(const Parametrisation& parametrisation, std::string_view name) {
-  const auto found = std::ranges::find(parametrisation.free, name, &FreeParameter::name);
-  if (found == parametrisation.free.end()) return std::nullopt;
-  return static_cast<std::size_t>(found - parametrisation.free.begin());
-}
-
-// A second lobe as rough as can be, which is where roughness times scale is 1 or more, does not change with
-// its scale: a descent that gets there stays. Takes the scale back to where it counts. Returns whether it was
-// beyond.
-bool leave_plateau(const Parametrisation& parametrisation, std::vector<double>& x) {
-  constexpr double kSecondRoughness = 0.85;
-  const auto roughness = index_of(parametrisation, "roughness");
-  const auto scale = index_of(parametrisation, "dual_specular_roughness_scale");
-  if (!roughness || !scale || x[*roughness] * x[*scale] < 1.0) return false;
-  x[*scale] = std::max(kSecondRoughness / x[*roughness], 1.0);
-  return true;
 }
 
 // A fresh value for a number that has one, with the other sign where it has a sign.
@@ -251,6 +232,22 @@ std::vector<Material> CrossValidation::materials(Groups groups) const {
   std::vector<Material> result;
   for (const FoldFit& fit : fits_.at(groups.bits())) result.push_back(fit.material);
   return result;
+}
+
+Material CrossValidation::fitted_to(const SampleSet& samples, Groups groups) const {
+  const Parametrisation parameters = parametrisation(groups);
+  const Targets targets = make_targets(samples, options_.loss);
+  const Problem problem(parameters, samples, targets, options_.loss);
+  std::vector<double> best;
+  double least = std::numeric_limits<double>::infinity();
+  for (const FoldFit& fit : fits_.at(groups.bits())) {
+    std::vector<double> x = parameters.from_material(fit.material);
+    const double cost = problem.cost(x);
+    if (!best.empty() && !(cost < least)) continue;
+    best = std::move(x);
+    least = cost;
+  }
+  return parameters.to_material(descend(problem, best, box_at(parameters, best), kPolish).x);
 }
 
 int CrossValidation::free_numbers(Groups groups) const {

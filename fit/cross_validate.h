@@ -70,6 +70,8 @@ class CrossValidation {
   double error(Groups groups) const { return held_out(groups).log_ratio_pct; }
   // What the folds came to: points to begin with where all samples may be seen.
   std::vector<Material> materials(Groups groups) const;
+  // The set fitted to other samples, by one descent from the fold's material that suits them best.
+  Material fitted_to(const SampleSet& samples, Groups groups) const;
   // The sum of the costs over folds, on the samples that were fitted.
   double cost(Groups groups) const;
 

@@ -6,6 +6,7 @@
 #include <algorithm>
 
 #include "fit/descend.h"
+#include "fit/plateau.h"
 #include "fit/starts.h"
 
 namespace brdfit::fit {
@@ -108,13 +109,21 @@ std::vector<std::size_t> distinct_costs(const std::vector<Candidate>& candidates
   return picked;
 }
 
+// To the bottom of the valley; and again from off the second lobe's plateau, if that is where it ends.
+void advance_to_bottom(const Problem& problem, Candidate& candidate) {
+  advance(problem, candidate, candidate.box, kPolish);
+  Candidate other = candidate;
+  if (!leave_plateau(problem.parametrisation(), other.solution.x)) return;
+  advance(problem, other, other.box, kPolish);
+  candidate.solution.evaluations = other.solution.evaluations;
+  if (other.solution.cost < candidate.solution.cost) candidate = other;
+}
+
 // Brings the best candidates to the bottom of their valleys, so that they can be told apart.
 void polish(const Problem& problem, std::vector<Candidate>& candidates) {
   const std::vector<std::size_t> picked = distinct_costs(candidates, kPolished, kSameValley);
-  tbb::parallel_for(std::size_t{0}, picked.size(), [&](std::size_t k) {
-    Candidate& candidate = candidates[picked[k]];
-    advance(problem, candidate, candidate.box, kPolish);
-  });
+  tbb::parallel_for(std::size_t{0}, picked.size(),
+                    [&](std::size_t k) { advance_to_bottom(problem, candidates[picked[k]]); });
   sort_best_first(candidates);
 }
 

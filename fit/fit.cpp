@@ -416,6 +416,7 @@ FitResult fit(const MeasuredTable& table, const FitOptions& options) {
       selection = select_groups(validation, options.model, choice_of(options));
       chosen.groups = selection->chosen;
       seeds = validation.materials(selection->chosen);
+      fit_ladder(validation, drawn.samples, *selection);
     }
   }
   const double select_seconds = watch.lap_seconds();

@@ -4,20 +4,36 @@
 
 #include <cstddef>
 
+#include "brdf/simd/jobs.h"
+
+namespace brdfit::simd {
+enum class Isa;
+}
+
 namespace brdfit::fit {
 
-// Two sets of values to compare, column by column. Entries with weight 0 are left out of every sum, but must
-// be finite.
+// What f is compared with, column by column. Entries that are left out of every sum must be readable all the
+// same.
+struct MetricSide {
+  const float* r[3] = {};  // entry k is r[c][step k]; negative where nothing was measured: left out
+  int step = 1;            // or -1
+  std::size_t begin = 0;   // entries before begin and from end on are left out as well
+  std::size_t end = 0;
+  const double* cos_i = nullptr;
+  const float* weight = nullptr;  // how often each counts, once where null
+};
+
 struct MetricJob {
   const double* f[3] = {};          // sr^-1
-  const float* r[3] = {};           // negative where nothing was measured: then with weight 0
   const double* f_swapped[3] = {};  // f(wo, wi); only for sum_order_gap
-  const double* cos_i = nullptr;
-  const float* weight = nullptr;  // 0 or a count
-  std::size_t count = 0;          // a multiple of simd::kBlock
+  std::size_t count = 0;            // a multiple of simd::kLineBlock
+  // One, or two that the same values of f are compared with: a line of a table and its mirror image.
+  MetricSide sides[2];
+  int side_count = 1;
 };
 
 struct MetricSums {
+  double weight = 0.0;
   double log_ratio = 0.0;
   double relative = 0.0;
   double cube_root = 0.0;
@@ -26,6 +42,7 @@ struct MetricSums {
   double clipped = 0.0;
 
   MetricSums& operator+=(const MetricSums& other) {
+    weight += other.weight;
     log_ratio += other.log_ratio;
     relative += other.relative;
     cube_root += other.cube_root;
@@ -36,11 +53,13 @@ struct MetricSums {
   }
 };
 
-// Adds up each measure's terms of f against r, over channels.
+// Adds up each measure's terms of f against r, over channels and sides.
 using MetricFunction = void (*)(const MetricJob&, MetricSums&);
+MetricFunction metric_function(simd::Isa isa);
 
-// Sum over channels of weight |ln((f cos_i + 1e-3) / (f_swapped cos_i + 1e-3))|.
+// Sum over channels and sides of weight |ln((f cos_i + 1e-3) / (f_swapped cos_i + 1e-3))|.
 using OrderGapFunction = double (*)(const MetricJob&);
+OrderGapFunction order_gap_function(simd::Isa isa);
 
 }  // namespace brdfit::fit
 

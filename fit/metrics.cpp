@@ -6,12 +6,12 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 #include <stdexcept>
 #include <vector>
 
 #include "brdf/models.h"
 #include "brdf/simd/dispatch.h"
+#include "fit/line_batch.h"
 #include "fit/metric_sums.h"
 #include "measured/grid_geometry.h"
 #include "measured/slice.h"
@@ -24,219 +24,212 @@ BRDFIT_DECLARE_SIMD(double sum_order_gap(const fit::MetricJob&))
 }  // namespace brdfit::simd
 
 namespace brdfit::fit {
+
+MetricFunction metric_function(simd::Isa isa) {
+  using namespace simd;
+  return BRDFIT_PICK(isa, sum_metrics);
+}
+
+OrderGapFunction order_gap_function(simd::Isa isa) {
+  using namespace simd;
+  return BRDFIT_PICK(isa, sum_order_gap);
+}
+
 namespace {
-
-MetricFunction metric_function() {
-  using namespace simd;
-  return BRDFIT_PICK(best_isa(), sum_metrics);
-}
-
-OrderGapFunction order_gap_function() {
-  using namespace simd;
-  return BRDFIT_PICK(best_isa(), sum_order_gap);
-}
-
-// Neighbouring cells of a (theta_h, theta_d) row, in a batch from position begin on. The run of phi_d is
-// closed under the exchange of wi and wo: the mirror image of its k-th entry is its k-th from the end.
-struct Segment {
-  std::size_t begin;
-  std::size_t first_cell;  // in the table
-  std::size_t size;
-  std::size_t stored;  // how many are in the table: the last may be the mirror image of phi_d = 0
-};
-
-// Cells of one theta_h row side by side, as many as fit the cache; padded with weight 0.
-class CellBatch {
- public:
-  template <class T>
-  using Columns = std::array<std::vector<T>, 3>;
-
-  std::array<std::vector<double>, 11> geometry;  // in the order of simd::GeometryColumns
-  Columns<double> f;
-  Columns<double> f_swapped;  // for (wo, wi); only for materials that are not reciprocal
-  Columns<float> r;
-  std::vector<float> weight;
-  std::vector<Segment> segments;
-
-  CellBatch(const Grid& grid, const GridGeometry& angles, int i_theta_h)
-      : grid_(grid), angles_(angles), i_theta_h_(i_theta_h) {
-    const std::size_t longest_run = static_cast<std::size_t>(grid.n_phi_d) + 1;
-    capacity_ = simd::kBlock * std::max<std::size_t>(8, longest_run / simd::kBlock + 1);
-    for (auto& column : geometry) column.resize(capacity_);
-    for (auto* columns : {&f, &f_swapped}) {
-      for (auto& column : *columns) column.resize(capacity_);
-    }
-    for (auto& column : r) column.resize(capacity_);
-    weight.resize(capacity_);
-    // What depends on theta_h alone stays for good.
-    const GridGeometry::Angle& h = angles.theta_h(i_theta_h);
-    fill(kSinH, h.sine, 0, capacity_);
-    fill(kCosH, h.cosine, 0, capacity_);
-    fill(kOneMinusCosH, h.one_minus_cosine, 0, capacity_);
-    fill(kLogCosH, h.log_cosine, 0, capacity_);
-    fill(kLogOneMinusCosH, h.log_one_minus_cosine, 0, capacity_);
-  }
-
-  bool empty() const { return size_ == 0; }
-  bool has_room_for(PhiRun run) const { return size_ + static_cast<std::size_t>(run.size()) <= capacity_; }
-  std::size_t padded() const { return (size_ + simd::kBlock - 1) / simd::kBlock * simd::kBlock; }
-
-  // Adds a run that is closed under the exchange; its weights and values of r are for the caller to set.
-  const Segment& add(int i_theta_d, PhiRun run) {
-    const auto count = static_cast<std::size_t>(run.size());
-    angles_.cosines(i_theta_h_, i_theta_d, run, &geometry[kCosI][size_], &geometry[kCosO][size_]);
-    const GridGeometry::Angle& d = angles_.theta_d(i_theta_d);
-    fill(kCosD, d.cosine, size_, count);
-    fill(kOneMinusCosD, d.one_minus_cosine, size_, count);
-    fill(kLogCosD, d.log_cosine, size_, count);
-    fill(kLogOneMinusCosD, d.log_one_minus_cosine, size_, count);
-    const auto stored = static_cast<std::size_t>(std::min(run.end, grid_.n_phi_d) - run.first);
-    segments.push_back({size_, grid_.index(i_theta_h_, i_theta_d, run.first), count, stored});
-    size_ += count;
-    return segments.back();
-  }
-
-  // Repeats the last cell with weight 0.
-  void pad() {
-    for (std::size_t k = size_; k < padded(); ++k) {
-      for (auto& column : geometry) column[k] = column[size_ - 1];
-      for (std::size_t c = 0; c < 3; ++c) {
-        f[c][k] = f_swapped[c][k] = 0.0;
-        r[c][k] = 0.0F;
-      }
-      weight[k] = 0.0F;
-    }
-  }
-
-  void clear() {
-    size_ = 0;
-    segments.clear();
-  }
-
-  simd::GeometryColumns columns() const {
-    return {geometry[0].data(), geometry[1].data(), geometry[2].data(), geometry[3].data(),
-            geometry[4].data(), geometry[5].data(), geometry[6].data(), geometry[7].data(),
-            geometry[8].data(), geometry[9].data(), geometry[10].data()};
-  }
-
-  MetricJob job() const {
-    MetricJob job;
-    for (std::size_t c = 0; c < 3; ++c) {
-      job.f[c] = f[c].data();
-      job.f_swapped[c] = f_swapped[c].data();
-      job.r[c] = r[c].data();
-    }
-    job.cos_i = geometry[kCosI].data();
-    job.weight = weight.data();
-    job.count = padded();
-    return job;
-  }
-
- private:
-  enum Column {
-    kCosI,
-    kCosO,
-    kSinH,
-    kCosH,
-    kCosD,
-    kOneMinusCosH,
-    kOneMinusCosD,
-    kLogCosH,
-    kLogCosD,
-    kLogOneMinusCosH,
-    kLogOneMinusCosD
-  };
-
-  void fill(Column column, double value, std::size_t begin, std::size_t count) {
-    std::fill_n(geometry[column].begin() + static_cast<std::ptrdiff_t>(begin), count, value);
-  }
-
-  const Grid& grid_;
-  const GridGeometry& angles_;
-  int i_theta_h_;
-  std::size_t capacity_ = 0;
-  std::size_t size_ = 0;
-};
-
-// A table's values in a segment; -1 where it has none.
-template <class T>
-void copy_values(const MeasuredTable& table, const Segment& segment, CellBatch::Columns<T>& to) {
-  for (std::size_t c = 0; c < 3; ++c) {
-    const auto from = table.plane(static_cast<int>(c)).subspan(segment.first_cell, segment.stored);
-    std::fill(std::ranges::copy(from, to[c].begin() + static_cast<std::ptrdiff_t>(segment.begin)).out,
-              to[c].begin() + static_cast<std::ptrdiff_t>(segment.begin + segment.size), T{-1});
-  }
-}
-
-// Puts f of a padded batch's cells into its columns; returns the sum of log-ratios between its two orders.
-using Candidate = std::function<double(CellBatch&)>;
-
-// Models give f cos_i.
-void divide_by_cosine(CellBatch& batch) {
-  const std::vector<double>& cos_i = batch.geometry[0];
-  for (std::size_t k = 0; k < batch.padded(); ++k) {
-    const double inverse = 1.0 / cos_i[k];
-    for (auto& channel : batch.f) channel[k] *= inverse;
-  }
-}
-
-// f becomes the mean of both orders. As segments are closed under the exchange, the other order of each entry
-// has been evaluated already, with the same cosines to the last bit.
-double fold_orders(CellBatch& batch) {
-  for (std::size_t c = 0; c < 3; ++c) {
-    for (const Segment& segment : batch.segments) {
-      const auto first = batch.f[c].begin() + static_cast<std::ptrdiff_t>(segment.begin);
-      std::reverse_copy(first, first + static_cast<std::ptrdiff_t>(segment.size),
-                        batch.f_swapped[c].begin() + static_cast<std::ptrdiff_t>(segment.begin));
-    }
-  }
-  const double gap = order_gap_function()(batch.job());
-  for (std::size_t c = 0; c < 3; ++c) {
-    for (std::size_t k = 0; k < batch.padded(); ++k) {
-      batch.f[c][k] = 0.5 * (batch.f[c][k] + batch.f_swapped[c][k]);
-    }
-  }
-  return gap;
-}
-
-Candidate material_candidate(const Material& material) {
-  return [coefficients = simd::coefficients_of(material), reciprocal = is_reciprocal(material),
-          evaluate = simd::eval_columns(simd::best_isa())](CellBatch& batch) {
-    double* const out[3] = {batch.f[0].data(), batch.f[1].data(), batch.f[2].data()};
-    evaluate(coefficients, batch.columns(), batch.padded(), out);
-    divide_by_cosine(batch);
-    return reciprocal ? 0.0 : fold_orders(batch);
-  };
-}
-
-Candidate table_candidate(const MeasuredTable& table) {
-  return [&table](CellBatch& batch) {
-    for (const Segment& segment : batch.segments) {
-      copy_values(table, segment, batch.f);
-      for (std::size_t k = segment.begin; k < segment.begin + segment.size; ++k) {
-        if (batch.f[0][k] >= 0.0) continue;
-        batch.weight[k] = 0.0F;
-        for (auto& channel : batch.f) channel[k] = 0.0;
-      }
-    }
-    return 0.0;
-  };
-}
 
 // What one worker adds up.
 struct Totals {
   MetricSums sums;
   double reciprocity = 0.0;
-  double weight = 0.0;
   std::size_t cells = 0;
 
   Totals& operator+=(const Totals& other) {
     sums += other.sums;
     reciprocity += other.reciprocity;
-    weight += other.weight;
     cells += other.cells;
     return *this;
   }
+};
+
+// What is compared with a reference.
+class Candidate {
+ public:
+  Candidate() = default;
+  Candidate(const Candidate&) = delete;
+  Candidate& operator=(const Candidate&) = delete;
+  virtual ~Candidate() = default;
+
+  // Adds up the cells of the batch's lines, which begin with first_theta_d.
+  virtual void compare(int first_theta_d, LineBatch& batch, Totals& totals) const = 0;
+
+  // After that: f of a cell of the table, which is an entry of a line; false where it has none.
+  virtual bool value(const LineBatch& batch, std::size_t line, std::size_t at, std::size_t cell,
+                     Rgb& f) const = 0;
+};
+
+class MaterialCandidate : public Candidate {
+ public:
+  explicit MaterialCandidate(const Material& material)
+      : coefficients_(simd::coefficients_of(material)), is_reciprocal_(brdfit::is_reciprocal(material)) {}
+
+  void compare(int, LineBatch& batch, Totals& totals) const override {
+    double* const f[3] = {batch.f[0].data(), batch.f[1].data(), batch.f[2].data()};
+    double* const swapped[3] = {batch.f_swapped[0].data(), batch.f_swapped[1].data(),
+                                batch.f_swapped[2].data()};
+    evaluate_(coefficients_, batch.columns, f, is_reciprocal_ ? nullptr : swapped);
+    for (std::size_t line = 0; line < simd::kLines; ++line) {
+      if (!batch.has(line)) continue;
+      if (!is_reciprocal_) {
+        totals.reciprocity += order_gap_(batch.job(line));
+        fold_orders(batch, line);
+      }
+      sum_(batch.job(line), totals.sums);
+    }
+  }
+
+  bool value(const LineBatch& batch, std::size_t line, std::size_t at, std::size_t, Rgb& f) const override {
+    for (std::size_t c = 0; c < 3; ++c) f[c] = batch.f[c][line * batch.columns.stride + at];
+    return true;
+  }
+
+ private:
+  // f becomes the mean of both orders.
+  static void fold_orders(LineBatch& batch, std::size_t line) {
+    const std::size_t begin = line * batch.columns.stride;
+    for (std::size_t c = 0; c < 3; ++c) {
+      double* const forth = &batch.f[c][begin];
+      const double* const back = &batch.f_swapped[c][begin];
+      for (std::size_t k = 0; k < batch.columns.count[line]; ++k) forth[k] = 0.5 * (forth[k] + back[k]);
+    }
+  }
+
+  simd::Coefficients coefficients_;
+  bool is_reciprocal_;
+  simd::EvalLines evaluate_ = simd::eval_lines(simd::best_isa());
+  MetricFunction sum_ = metric_function(simd::best_isa());
+  OrderGapFunction order_gap_ = order_gap_function(simd::best_isa());
+};
+
+// Its two sides differ: they are compared one after the other.
+class TableCandidate : public Candidate {
+ public:
+  explicit TableCandidate(const MeasuredTable& table) : table_(table) {}
+
+  void compare(int first_theta_d, LineBatch& batch, Totals& totals) const override {
+    std::vector<float> weight(batch.columns.stride);
+    for (std::size_t line = 0; line < simd::kLines; ++line) {
+      for (std::size_t side = 0; batch.has(line) && side < 2; ++side) {
+        MetricJob job = batch.job(line);
+        job.side_count = 1;
+        job.sides[0] = batch.sides[line][side];
+        job.sides[0].weight = weight.data();
+        const std::size_t begin = line * batch.columns.stride;
+        const std::array<double*, 3> f = {&batch.f[0][begin], &batch.f[1][begin], &batch.f[2][begin]};
+        for (double* const channel : f) std::fill_n(channel, job.count, -1.0);
+        batch.copy_values(table_, line, first_theta_d + static_cast<int>(line), side, f);
+        for (std::size_t k = 0; k < job.count; ++k) {
+          weight[k] = f[0][k] >= 0.0 ? 1.0F : 0.0F;
+          for (double* const channel : f) channel[k] = std::max(channel[k], 0.0);
+        }
+        sum_(job, totals.sums);
+      }
+    }
+  }
+
+  bool value(const LineBatch&, std::size_t, std::size_t, std::size_t cell, Rgb& f) const override {
+    if (!table_.is_valid(cell)) return false;
+    f = table_.value(cell);
+    return true;
+  }
+
+ private:
+  const MeasuredTable& table_;
+  MetricFunction sum_ = metric_function(simd::best_isa());
+};
+
+struct AllTotals {
+  Totals table;
+  Totals slice;
+  Totals slice_below_80;  // in both angles
+
+  AllTotals& operator+=(const AllTotals& other) {
+    table += other.table;
+    slice += other.slice;
+    slice_below_80 += other.slice_below_80;
+    return *this;
+  }
+};
+
+// How many pixels of the slice show each of its cells.
+struct SliceCounts {
+  int i_phi_d;
+  std::vector<float> all;  // by theta_h and theta_d
+  std::vector<float> below_80;
+
+  explicit SliceCounts(const MeasuredTable& reference) {
+    constexpr double kPhiDeg = 90.0;
+    constexpr int kSize = 90;
+    constexpr int kLimit = 80;
+    const Grid& grid = reference.grid();
+    const Slice slice = make_slice(reference, kPhiDeg, kSize);
+    i_phi_d = slice.i_phi_d;
+    const auto n_theta_d = static_cast<std::size_t>(grid.n_theta_d);
+    all.resize(static_cast<std::size_t>(grid.n_theta_h) * n_theta_d);
+    below_80.resize(all.size());
+    for (const SlicePixel& pixel : slice.pixels) {
+      const std::size_t at =
+          static_cast<std::size_t>(pixel.i_theta_h) * n_theta_d + static_cast<std::size_t>(pixel.i_theta_d);
+      all[at] += 1.0F;
+      if (pixel.column < kLimit && pixel.row < kLimit) below_80[at] += 1.0F;
+    }
+  }
+};
+
+// The slice's cells of one theta_h row.
+class SliceRow {
+ public:
+  explicit SliceRow(std::size_t capacity) {
+    resize(f_, padded(capacity));
+    resize(r_, padded(capacity));
+    cos_i_.resize(padded(capacity), 1.0);
+    all_.resize(padded(capacity));
+    below_80_.resize(padded(capacity));
+  }
+
+  // all, below_80: how many pixels show the cell.
+  void add(const Rgb& f, const Rgb& r, double cos_i, float all, float below_80) {
+    for (std::size_t c = 0; c < 3; ++c) {
+      f_[c][size_] = f[c];
+      r_[c][size_] = static_cast<float>(r[c]);
+    }
+    cos_i_[size_] = cos_i;
+    all_[size_] = all;
+    below_80_[size_] = below_80;
+    ++size_;
+  }
+
+  void finish(AllTotals& totals) const {
+    static const MetricFunction sum = metric_function(simd::best_isa());
+    sum(job(all_), totals.slice.sums);
+    sum(job(below_80_), totals.slice_below_80.sums);
+    totals.slice.cells = size_;
+  }
+
+ private:
+  MetricJob job(const std::vector<float>& weight) const {
+    MetricJob job;
+    job.count = padded(size_);
+    for (std::size_t c = 0; c < 3; ++c) job.f[c] = f_[c].data();
+    job.sides[0] = {{r_[0].data(), r_[1].data(), r_[2].data()}, 1, 0, size_, cos_i_.data(), weight.data()};
+    return job;
+  }
+
+  std::size_t size_ = 0;
+  Channels<double> f_;
+  Channels<float> r_;
+  std::vector<double> cos_i_;
+  std::vector<float> all_;
+  std::vector<float> below_80_;
 };
 
 // What is compared: valid in the reference and in the candidate, above the horizon, within max_theta.
@@ -244,115 +237,71 @@ struct Comparison {
   const MeasuredTable& reference;
   const Candidate& candidate;
   const GridGeometry& angles;
+  const SliceCounts& slice;
   double min_cosine;
 };
 
-// Compares cells of one theta_h row.
+// Compares the cells of one theta_h row.
 class RowComparison {
  public:
   RowComparison(const Comparison& comparison, int i_theta_h)
       : comparison_(comparison),
         i_theta_h_(i_theta_h),
-        batch_(comparison.reference.grid(), comparison.angles, i_theta_h) {}
+        batch_(comparison.reference, comparison.angles, i_theta_h),
+        slice_(static_cast<std::size_t>(comparison.reference.grid().n_theta_d)) {}
 
-  // Each cell of the theta_d row that is compared counts as one.
-  void add_row(int i_theta_d) {
-    const PhiRun observed = comparison_.angles.observed(i_theta_h_, i_theta_d, comparison_.min_cosine);
-    if (!observed.empty()) add(i_theta_d, observed, 1.0F);
-  }
-
-  // One cell, if it is compared.
-  void add_cell(int i_theta_d, int i_phi_d, float count) {
-    const PhiRun observed = comparison_.angles.observed(i_theta_h_, i_theta_d, comparison_.min_cosine);
-    if (i_phi_d >= observed.first && i_phi_d < observed.end) add(i_theta_d, {i_phi_d, i_phi_d + 1}, count);
-  }
-
-  Totals finish() {
-    flush();
+  AllTotals run() {
+    for (int i_d = 0; i_d < comparison_.reference.grid().n_theta_d; i_d += static_cast<int>(simd::kLines)) {
+      batch_.fill(i_d, comparison_.min_cosine);
+      comparison_.candidate.compare(i_d, batch_, totals_.table);
+      for (std::size_t line = 0; line < simd::kLines; ++line) {
+        if (batch_.has(line)) add_to_slice(line, i_d + static_cast<int>(line));
+      }
+    }
+    slice_.finish(totals_);
+    // Every cell counts once.
+    totals_.table.cells = static_cast<std::size_t>(totals_.table.sums.weight);
     return totals_;
   }
 
  private:
-  void add(int i_theta_d, PhiRun counted, float count) {
-    const PhiRun run = closed(counted);
-    if (!batch_.has_room_for(run)) flush();
-    const Segment& segment = batch_.add(i_theta_d, run);
-    copy_values(comparison_.reference, segment, batch_.r);
-    const float* r = &batch_.r[0][segment.begin];
-    float* weight = &batch_.weight[segment.begin];
-    std::fill_n(weight, segment.size, 0.0F);
-    for (int k = counted.first - run.first; k < counted.end - run.first; ++k) {
-      weight[k] = r[k] >= 0.0F ? count : 0.0F;
-    }
-  }
-
-  // The run with the mirror image of each of its entries, and what lies between.
-  PhiRun closed(PhiRun run) const {
+  void add_to_slice(std::size_t line, int i_theta_d) {
+    const SliceCounts& slice = comparison_.slice;
     const GridGeometry& angles = comparison_.angles;
-    return {std::min(run.first, angles.mirror(run.end - 1)), std::max(run.end, angles.mirror(run.first) + 1)};
-  }
-
-  void flush() {
-    if (batch_.empty()) return;
-    batch_.pad();
-    totals_.reciprocity += comparison_.candidate(batch_);
-    metric_function()(batch_.job(), totals_.sums);
-    for (std::size_t k = 0; k < batch_.padded(); ++k) {
-      totals_.weight += batch_.weight[k];
-      totals_.cells += batch_.weight[k] > 0.0F ? 1 : 0;
-    }
-    batch_.clear();
+    const MeasuredTable& reference = comparison_.reference;
+    const std::size_t pixel =
+        static_cast<std::size_t>(i_theta_h_) * static_cast<std::size_t>(reference.grid().n_theta_d) +
+        static_cast<std::size_t>(i_theta_d);
+    const std::size_t side = slice.i_phi_d <= angles.middle() ? 0 : 1;
+    const int k = (side == 0 ? slice.i_phi_d : angles.mirror(slice.i_phi_d)) - batch_.halves[line].first;
+    const std::size_t cell = reference.grid().index(i_theta_h_, i_theta_d, slice.i_phi_d);
+    Rgb f;
+    if (k < 0 || slice.all[pixel] == 0.0F || !reference.is_valid(cell)) return;
+    if (!comparison_.candidate.value(batch_, line, static_cast<std::size_t>(k), cell, f)) return;
+    slice_.add(f, reference.value(cell), batch_.sides[line][side].cos_i[k], slice.all[pixel],
+               slice.below_80[pixel]);
   }
 
   const Comparison& comparison_;
   int i_theta_h_;
-  CellBatch batch_;
-  Totals totals_;
+  LineBatch batch_;
+  SliceRow slice_;
+  AllTotals totals_;
 };
 
 // Rows are summed apart and added in order, so that the result does not depend on threads.
-template <class CompareRow>
-Totals over_rows(const Comparison& comparison, const CompareRow& compare_row) {
-  std::vector<Totals> rows(static_cast<std::size_t>(comparison.reference.grid().n_theta_h));
-  tbb::parallel_for(std::size_t{0}, rows.size(), [&](std::size_t i) {
-    RowComparison row(comparison, static_cast<int>(i));
-    compare_row(row, i);
-    rows[i] = row.finish();
-  });
-  Totals total;
-  for (const Totals& row : rows) total += row;
+AllTotals compare(const Comparison& comparison) {
+  std::vector<AllTotals> rows(static_cast<std::size_t>(comparison.reference.grid().n_theta_h));
+  tbb::parallel_for(std::size_t{0}, rows.size(),
+                    [&](std::size_t i) { rows[i] = RowComparison(comparison, static_cast<int>(i)).run(); });
+  AllTotals total;
+  for (const AllTotals& row : rows) total += row;
   return total;
-}
-
-Totals over_table(const Comparison& comparison) {
-  return over_rows(comparison, [&](RowComparison& row, std::size_t) {
-    for (int i_d = 0; i_d < comparison.reference.grid().n_theta_d; ++i_d) row.add_row(i_d);
-  });
-}
-
-// below_80: only pixels below 80 deg in both angles.
-Totals over_slice(const Comparison& comparison, const Slice& slice, bool below_80) {
-  constexpr int kLimit = 80;
-  // A stored cell that several pixels show is evaluated once.
-  const Grid& grid = comparison.reference.grid();
-  const auto n_theta_d = static_cast<std::size_t>(grid.n_theta_d);
-  std::vector<float> counts(static_cast<std::size_t>(grid.n_theta_h) * n_theta_d);
-  for (const SlicePixel& pixel : slice.pixels) {
-    if (below_80 && (pixel.column >= kLimit || pixel.row >= kLimit)) continue;
-    counts[static_cast<std::size_t>(pixel.i_theta_h) * n_theta_d +
-           static_cast<std::size_t>(pixel.i_theta_d)] += 1.0F;
-  }
-  return over_rows(comparison, [&](RowComparison& row, std::size_t i_h) {
-    for (int i_d = 0; i_d < grid.n_theta_d; ++i_d) {
-      const float count = counts[i_h * n_theta_d + static_cast<std::size_t>(i_d)];
-      if (count > 0.0F) row.add_cell(i_d, slice.i_phi_d, count);
-    }
-  });
 }
 
 Measures measures_of(const Totals& totals, const Totals& clipped) {
   Measures m;
-  const double n = 3.0 * totals.weight;
+  const double n = 3.0 * totals.sums.weight;
   m.cells = totals.cells;
   if (n > 0.0) {
     m.log_ratio_pct = 100.0 * totals.sums.log_ratio / n;
@@ -361,36 +310,37 @@ Measures measures_of(const Totals& totals, const Totals& clipped) {
     m.srgb = std::sqrt(totals.sums.srgb / n);
     m.cosine_l2 = std::sqrt(totals.sums.cosine_l2 / n);
   }
-  if (clipped.weight > 0.0) m.slice_pct = 100.0 * std::sqrt(clipped.sums.clipped / (3.0 * clipped.weight));
+  if (clipped.sums.weight > 0.0)
+    m.slice_pct = 100.0 * std::sqrt(clipped.sums.clipped / (3.0 * clipped.sums.weight));
   return m;
 }
 
 Evaluation evaluate_candidate(const Candidate& candidate, const MeasuredTable& reference,
                               double max_theta_deg) {
-  constexpr double kPhiDeg = 90.0;
-  constexpr int kSliceSize = 90;
   const GridGeometry angles(reference.grid());
-  const Comparison comparison = {reference, candidate, angles, lowest_observed_cosine(max_theta_deg)};
-  const Totals table = over_table(comparison);
-  const Slice slice = make_slice(reference, kPhiDeg, kSliceSize);
+  const SliceCounts slice(reference);
+  const AllTotals totals =
+      compare({reference, candidate, angles, slice, lowest_observed_cosine(max_theta_deg)});
   Evaluation result;
-  result.table = measures_of(table, table);
-  result.slice = measures_of(over_slice(comparison, slice, false), over_slice(comparison, slice, true));
-  if (table.weight > 0.0) result.reciprocity_gap_pct = 100.0 * table.reciprocity / (3.0 * table.weight);
+  result.table = measures_of(totals.table, totals.table);
+  result.slice = measures_of(totals.slice, totals.slice_below_80);
+  if (totals.table.sums.weight > 0.0) {
+    result.reciprocity_gap_pct = 100.0 * totals.table.reciprocity / (3.0 * totals.table.sums.weight);
+  }
   return result;
 }
 
 }  // namespace
 
 Evaluation evaluate(const Material& material, const MeasuredTable& reference, double max_theta_deg) {
-  return evaluate_candidate(material_candidate(material), reference, max_theta_deg);
+  return evaluate_candidate(MaterialCandidate(material), reference, max_theta_deg);
 }
 
 Evaluation evaluate(const MeasuredTable& candidate, const MeasuredTable& reference, double max_theta_deg) {
   if (candidate.grid() != reference.grid()) {
     throw std::invalid_argument("the tables have different grids and cannot be compared cell by cell");
   }
-  return evaluate_candidate(table_candidate(candidate), reference, max_theta_deg);
+  return evaluate_candidate(TableCandidate(candidate), reference, max_theta_deg);
 }
 
 }  // namespace brdfit::fit

@@ -1,6 +1,8 @@
 // Growing and pruning a set of groups.
 #include "fit/select.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 
 namespace brdfit::fit {
@@ -16,9 +18,16 @@ constexpr int kManyStarts = 3;
 constexpr int kStartsOfAll = 6;
 constexpr int kKickRoundsOfAll = 2;
 
+// The error may rise by this share of the threshold when groups are removed. Less than all of it: fits of few
+// samples overfit and blocks differ, so what a group is worth is seen to be less than it is, and on cells that
+// are new the set must still be within the threshold of everything.
+constexpr double kRemovalShare = 0.25;
+
 // A group without which the error is beyond the bound by more than this share is not tried again when others
 // have gone: it will hardly be missed less.
 constexpr double kNeeded = 0.05;
+
+constexpr std::size_t kSamplesOfLadder = 2400;
 
 class Selector {
  public:
@@ -180,7 +189,7 @@ class Selector {
   double bound() const {
     double least = std::min(validation_.error(set_), least_);
     least = std::min(least, validation_.error(options_.usable));
-    return (1.0 + options_.threshold) * least;
+    return (1.0 + kRemovalShare * options_.threshold) * least;
   }
 
   bool prune() {
@@ -216,6 +225,18 @@ class Selector {
 
 Selection select_groups(CrossValidation& validation, Model model, const SelectionOptions& options) {
   return Selector(validation, model, options).run();
+}
+
+void fit_ladder(const CrossValidation& validation, const SampleSet& samples, Selection& selection) {
+  const SampleSet part = samples.thinned((samples.size() + kSamplesOfLadder - 1) / kSamplesOfLadder);
+  tbb::parallel_for(std::size_t{0}, selection.ladder.size() + 1, [&](std::size_t k) {
+    if (k == 0) {
+      selection.material_without = validation.fitted_to(part, selection.required);
+    } else {
+      LadderStep& step = selection.ladder[k - 1];
+      step.material = validation.fitted_to(part, step.set);
+    }
+  });
 }
 
 }  // namespace brdfit::fit

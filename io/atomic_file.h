@@ -3,6 +3,7 @@
 #define BRDFIT_IO_ATOMIC_FILE_H_
 
 #include <cstddef>
+#include <cstdint>
 #include <filesystem>
 #include <span>
 #include <string_view>
@@ -22,6 +23,8 @@ class AtomicFile {
   // Throws IoError (kOutput): no space, and the like.
   void write(std::span<const std::byte> bytes);
   void write(std::string_view text);
+  // At an offset from the file's beginning, for formats that fill in a table when they end.
+  void write_at(std::uint64_t offset_bytes, std::span<const std::byte> bytes);
 
   // Flushes to the disk and renames. Throws IoError (kOutput).
   void commit();

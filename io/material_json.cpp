@@ -204,6 +204,26 @@ Material material_from_json(const Json& json, const std::string& file, const std
   return material;
 }
 
+Json effects_and_values_to_json(const Material& material) {
+  Json json = material_to_json(material);
+  for (const ParameterInfo& info : parameters_of(material.model())) {
+    if (has_srgb(info)) json["parameters"].erase(srgb_name(info));
+  }
+  return {{"effects", json["effects"]}, {"parameters", json["parameters"]}};
+}
+
+Material material_from_effects_and_values(const Material& like, const Json& json, const std::string& file,
+                                          const std::string& where) {
+  ObjectReader reader(json, file, where);
+  Material material(like.model());
+  material.options() = like.options();
+  const Effects effects = effects_from_json(reader, material.model());
+  parameters_from_json(reader.object("parameters"), effects, material);
+  reader.finish();
+  material.set_effects(effects);
+  return material;
+}
+
 Material read_material(const std::filesystem::path& file) {
   return material_from_json(read_json(file), file.string());
 }

@@ -20,6 +20,14 @@ Json material_to_json(const Material& material);
 // missing or badly typed member; a parameter of an effect that is off.
 Material material_from_json(const Json& json, const std::string& file, const std::string& where = "");
 
+// {"effects": [...], "parameters": {...}}: what tells a material from others of its model and options. No
+// sRGB triples. For evidence that holds several materials.
+Json effects_and_values_to_json(const Material& material);
+
+// The inverse, with model and options of `like`. Throws as material_from_json().
+Material material_from_effects_and_values(const Material& like, const Json& json, const std::string& file,
+                                          const std::string& where = "");
+
 // Reads a file; round-trips bit for bit with write_material.
 Material read_material(const std::filesystem::path& file);
 

@@ -65,6 +65,9 @@ class GridGeometry {
   // image. With values at lower edges that of index 0 is n_phi_d, one past the stored ones.
   int mirror(int i_phi_d) const { return mirror_sum_ - i_phi_d; }
 
+  // The last index that is not above its mirror image.
+  int middle() const { return mirror_sum_ / 2; }
+
   // The stored phi_d at which both cosines are at least min_cosine: always without a gap.
   PhiRun observed(int i_theta_h, int i_theta_d, double min_cosine) const;
 

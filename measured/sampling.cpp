@@ -12,68 +12,77 @@
 namespace brdfit {
 namespace {
 
-// Observed cells in an order that keeps neighbours together: theta_h rows, bands of theta_d, then phi_d.
+// Observed cells in an order that keeps neighbours together: theta_h rows, bands of theta_d, then phi_d. Only
+// how many there are in each column of a band is kept: few of the cells are ever asked for.
 class OrderedCells {
  public:
   // band: how many theta_d rows are taken together.
   OrderedCells(const MeasuredTable& table, const GridGeometry& geometry, double min_cosine, int band)
       : table_(table), geometry_(geometry), min_cosine_(min_cosine), band_(band) {
-    const auto n_theta_h = static_cast<std::size_t>(table.grid().n_theta_h);
-    rows_.resize(n_theta_h);
-    tbb::parallel_for(std::size_t{0}, n_theta_h, [&](std::size_t row) { rows_[row] = ordered_row(row); });
-    for (const Row& row : rows_) ends_.push_back((ends_.empty() ? 0 : ends_.back()) + row.size());
+    rows_.resize(static_cast<std::size_t>(table.grid().n_theta_h));
+    tbb::parallel_for(std::size_t{0}, rows_.size(), [&](std::size_t row) { count(static_cast<int>(row)); });
+    std::size_t end = 0;
+    for (Row& row : rows_) row.end = end += row.size;
   }
 
-  std::size_t size() const { return ends_.back(); }
+  std::size_t size() const { return rows_.back().end; }
 
   struct Cell {
     int i_theta_h, i_theta_d, i_phi_d;
   };
   // The cells at these places of the order, which ascend.
   std::vector<Cell> at(const std::vector<std::size_t>& places) const {
-    const auto n_phi_d = static_cast<std::uint32_t>(table_.grid().n_phi_d);
+    const auto n_phi_d = static_cast<std::size_t>(table_.grid().n_phi_d);
     std::vector<Cell> result;
     result.reserve(places.size());
     std::size_t row = 0;
+    std::size_t column = 0;  // of the row, counted over its bands
+    std::size_t first = 0;   // place of the column's first cell
     for (const std::size_t k : places) {
-      while (k >= ends_[row]) ++row;
-      const std::uint32_t cell = rows_[row][k - (ends_[row] - rows_[row].size())];
-      result.push_back(
-          {static_cast<int>(row), static_cast<int>(cell / n_phi_d), static_cast<int>(cell % n_phi_d)});
+      if (k >= rows_[row].end) {
+        while (k >= rows_[row].end) ++row;
+        column = 0;
+        first = rows_[row].end - rows_[row].size;
+      }
+      while (k >= first + rows_[row].counts[column]) first += rows_[row].counts[column++];
+      result.push_back(cell_of_column(static_cast<int>(row), static_cast<int>(column / n_phi_d) * band_,
+                                      static_cast<int>(column % n_phi_d), k - first));
     }
     return result;
   }
 
  private:
-  using Row = std::vector<std::uint32_t>;  // indices of cells, counted from the row's first
+  struct Row {
+    std::vector<std::uint32_t> counts;  // of each column, band after band
+    std::vector<PhiRun> runs;           // observed phi_d of each theta_d
+    std::size_t size = 0;
+    std::size_t end = 0;  // counting all rows before it
+  };
 
-  Row ordered_row(std::size_t i_theta_h) const {
+  void count(int i_h) {
     const Grid& grid = table_.grid();
-    const auto i_h = static_cast<int>(i_theta_h);
-    Row row(static_cast<std::size_t>(grid.n_theta_d) * static_cast<std::size_t>(grid.n_phi_d));
-    std::size_t count = 0;
-    for (int first_d = 0; first_d < grid.n_theta_d; first_d += band_) {
-      append_band(i_h, first_d, std::min(first_d + band_, grid.n_theta_d), row, count);
+    Row& row = rows_[static_cast<std::size_t>(i_h)];
+    const int bands = (grid.n_theta_d + band_ - 1) / band_;
+    row.counts.resize(static_cast<std::size_t>(bands) * static_cast<std::size_t>(grid.n_phi_d));
+    row.runs.reserve(static_cast<std::size_t>(grid.n_theta_d));
+    for (int i_d = 0; i_d < grid.n_theta_d; ++i_d) {
+      const PhiRun run = geometry_.observed(i_h, i_d, min_cosine_);
+      row.runs.push_back(run);
+      const float* f = table_.plane(0).data() + grid.index(i_h, i_d, 0);
+      std::uint32_t* counts = row.counts.data() + static_cast<std::ptrdiff_t>(i_d / band_) * grid.n_phi_d;
+      for (int i_p = run.first; i_p < run.end; ++i_p) counts[i_p] += f[i_p] >= 0.0F ? 1 : 0;
     }
-    row.resize(count);
-    row.shrink_to_fit();
-    return row;
+    for (const std::uint32_t in_column : row.counts) row.size += in_column;
   }
 
-  void append_band(int i_h, int first_d, int end_d, Row& row, std::size_t& count) const {
-    const Grid& grid = table_.grid();
-    const std::size_t row_start = grid.index(i_h, 0, 0);
-    std::vector<PhiRun> runs;
-    for (int i_d = first_d; i_d < end_d; ++i_d) runs.push_back(geometry_.observed(i_h, i_d, min_cosine_));
-    for (int i_p = 0; i_p < grid.n_phi_d; ++i_p) {
-      for (int i_d = first_d; i_d < end_d; ++i_d) {
-        const PhiRun& run = runs[static_cast<std::size_t>(i_d - first_d)];
-        const std::size_t cell = grid.index(0, i_d, i_p);
-        // Written first and kept if it counts: a branch here would be mispredicted often.
-        row[count] = static_cast<std::uint32_t>(cell);
-        count += std::size_t{i_p >= run.first} & std::size_t{i_p < run.end} &
-                 std::size_t{table_.is_valid(row_start + cell)};
-      }
+  // The k-th observed cell of a column.
+  Cell cell_of_column(int i_h, int first_d, int i_p, std::size_t k) const {
+    const Row& row = rows_[static_cast<std::size_t>(i_h)];
+    for (int i_d = first_d;; ++i_d) {
+      const PhiRun& run = row.runs[static_cast<std::size_t>(i_d)];
+      const bool observed =
+          i_p >= run.first && i_p < run.end && table_.is_valid(table_.grid().index(i_h, i_d, i_p));
+      if (observed && k-- == 0) return {i_h, i_d, i_p};
     }
   }
 
@@ -82,7 +91,6 @@ class OrderedCells {
   double min_cosine_;
   int band_;
   std::vector<Row> rows_;
-  std::vector<std::size_t> ends_;  // of each row, counting all cells before it
 };
 
 // How many theta_d rows a stratum spans: it is about twice as long in phi_d, as the grid has twice the cells

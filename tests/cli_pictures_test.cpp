@@ -11,9 +11,13 @@
 #include <string>
 
 #include "brdf/models.h"
+#include "io/image_file.h"
 #include "io/material_json.h"
+#include "io/merl.h"
+#include "render/report/html.h"
 #include "render/slice.h"
 #include "render/sphere.h"
+#include "render/view.h"
 #include "tests/cli_fixture.h"
 
 namespace brdfit {
@@ -197,6 +201,48 @@ TEST_F(CliPictures, ReportFindsTheTableThatWasFitted) {
   // Another table of the same name is not taken for it.
   make_table("soft", Model::kBurley, 2);
   EXPECT_THAT(json::parse(run(report).out)["warnings"].dump(), HasSubstr("soft.binary"));
+}
+
+// A slice as the report shows it, as the data URI has it.
+std::string shown_slice(const render::Subject& subject, const Grid& grid) {
+  render::SliceOptions options;
+  options.size = 128;
+  options.grid = grid;
+  const render::Picture picture = render::to_picture(render::draw_slice(subject, options), {});
+  return "base64," + render::base64(io::encode_png({picture.width, picture.height, 3, picture.rgb}));
+}
+
+TEST_F(CliPictures, ReportShowsTheMaterialOfEveryRungAsTheFileHoldsIt) {
+  make_table("full", Model::kCallisto, 4);
+  ASSERT_EQ(run("fit " + quoted("full.binary") + " --samples 500 --model callisto --loss auto -q -o " +
+                quoted("fits"))
+                .exit_code,
+            0);
+  const std::string report = "report " + quoted("fits") + " --size 64 --force --json -q";
+  ASSERT_EQ(run(report).exit_code, 0);
+  std::string html = tests::read_text(path("fits/report.html"));
+  const Material material = io::read_material(path("fits/full.callisto.json"));
+  io::Json file = io::read_json(path("fits/full.callisto.json"));
+  std::vector<io::Json> rungs = {file["fit"]["ladder_start"]};
+  for (const io::Json& step : file["fit"]["ladder"]) rungs.push_back(step["material"]);
+  ASSERT_GT(rungs.size(), 1U);
+  const MeasuredTable table = io::read_merl(path("full.binary"));
+  for (const io::Json& rung : rungs) {
+    const Material of_rung = io::material_from_effects_and_values(material, rung, "m.json");
+    EXPECT_THAT(html, HasSubstr(shown_slice(of_rung, table.grid())));
+  }
+  EXPECT_THAT(html, HasSubstr(shown_slice(table, table.grid())));
+  for (const char* text : {"class=\"sure", "class=\"losses\"", " was kept", "ns per evaluation"}) {
+    EXPECT_THAT(html, HasSubstr(text));
+  }
+  // A file without them, or with one that is not sound, is shown without.
+  file["fit"].erase("ladder_start");
+  for (io::Json& step : file["fit"]["ladder"]) step["material"]["parameters"]["roughness"] = -1;
+  io::write_json(path("fits/full.callisto.json"), file);
+  ASSERT_EQ(run(report).exit_code, 0);
+  html = tests::read_text(path("fits/report.html"));
+  EXPECT_THAT(html, HasSubstr("their slices are not drawn"));
+  EXPECT_THAT(html, HasSubstr("ns per evaluation"));
 }
 
 TEST_F(CliPictures, ReportGoesOnWhenAFileIsBadAndExitsWith4) {

@@ -59,17 +59,18 @@ class JsonSchema {
       return "";
     }
     if (keyword == "properties" || keyword == "items") return check_inside(keyword, rule, value, place);
-    return holds(schema, keyword, rule, value) ? "" : place + ": " + keyword;
+    if (keyword == "additionalProperties") return check_others(schema, rule, value, place);
+    if (keyword == "propertyNames") return check_names(rule, value, place);
+    return holds(keyword, rule, value) ? "" : place + ": " + keyword;
   }
 
-  // "#/place/in/this/schema", or the name of another schema's file.
+  // "#/place/in/this/schema", the name of another schema's file, or both together.
   std::string check_reference(const std::string& reference, const Json& value,
                               const std::string& place) const {
-    if (reference.starts_with('#')) {
-      return check(root_.at(Json::json_pointer(reference.substr(1))), value, place);
-    }
-    const JsonSchema& other = others_.at(reference);
-    return other.check(other.root_, value, place);
+    const std::size_t hash = std::min(reference.find('#'), reference.size());
+    const JsonSchema& schema = hash == 0 ? *this : others_.at(reference.substr(0, hash));
+    const std::string inside = hash == reference.size() ? "" : reference.substr(hash + 1);
+    return schema.check(schema.root_.at(Json::json_pointer(inside)), value, place);
   }
 
   bool any_holds(const Json& schemas, const Json& value) const {
@@ -89,8 +90,30 @@ class JsonSchema {
     return "";
   }
 
+  // Members that "properties" does not name.
+  std::string check_others(const Json& schema, const Json& rule, const Json& value,
+                           const std::string& place) const {
+    if (!value.is_object()) return "";
+    for (const auto& [key, member] : value.items()) {
+      if (schema.contains("properties") && schema["properties"].contains(key)) continue;
+      if (rule == false) return place + ": additionalProperties";
+      std::string found = check(rule, member, place + "/" + key);
+      if (!found.empty()) return found;
+    }
+    return "";
+  }
+
+  std::string check_names(const Json& rule, const Json& value, const std::string& place) const {
+    if (!value.is_object()) return "";
+    for (const auto& [key, member] : value.items()) {
+      std::string found = check(rule, key, place + "/" + key);
+      if (!found.empty()) return found;
+    }
+    return "";
+  }
+
   // The keywords that look at one value alone. Each passes for values of other types, as the standard says.
-  static bool holds(const Json& schema, const std::string& keyword, const Json& rule, const Json& value) {
+  static bool holds(const std::string& keyword, const Json& rule, const Json& value) {
     if (keyword == "type") return has_type(value, rule.get<std::string>());
     if (keyword == "const") return value == rule;
     if (keyword == "enum") return std::find(rule.begin(), rule.end(), value) != rule.end();
@@ -105,9 +128,6 @@ class JsonSchema {
     if (keyword == "maxItems") return !value.is_array() || value.size() <= rule.get<std::size_t>();
     if (keyword == "uniqueItems") return !value.is_array() || is_unique(value);
     if (keyword == "required") return !value.is_object() || has_all(value, rule);
-    if (keyword == "additionalProperties" && rule == false) {
-      return !value.is_object() || has_only(value, schema["properties"]);
-    }
     if (keyword == "dependentRequired") {
       if (!value.is_object()) return true;
       const auto items = rule.items();
@@ -145,12 +165,6 @@ class JsonSchema {
   static bool has_all(const Json& object, const Json& keys) {
     return std::all_of(keys.begin(), keys.end(),
                        [&](const Json& key) { return object.contains(key.get_ref<const std::string&>()); });
-  }
-
-  static bool has_only(const Json& object, const Json& properties) {
-    const auto items = object.items();
-    return std::all_of(items.begin(), items.end(),
-                       [&](const auto& item) { return properties.contains(item.key()); });
   }
 
   Json root_;

@@ -42,6 +42,10 @@ TEST(JsonSchema, EveryKeywordAllowsAndRefusesWhatTheStandardSays) {
       {R"({"properties": {"a": false, "b": {"const": 1}}})", R"([{}, {"b": 1, "c": 1}])",
        R"([{"a": 1}, {"b": 2}])"},
       {R"({"additionalProperties": false, "properties": {"a": {}}})", R"([{}, {"a": 1}])", R"([{"b": 1}])"},
+      {R"({"additionalProperties": {"const": 1}, "properties": {"a": {}}})", R"([{"a": 2, "b": 1}, 2])",
+       R"([{"b": 2}])"},
+      {R"({"additionalProperties": false})", R"([{}, 1])", R"([{"b": 1}])"},
+      {R"({"propertyNames": {"pattern": "^a"}})", R"([{}, {"a": 1, "ab": 2}, "b"])", R"([{"b": 1}])"},
       {R"({"dependentRequired": {"a": ["b"]}})", R"([{}, {"b": 1}, {"a": 1, "b": 1}])", R"([{"a": 1}])"},
       {R"({"if": {"minimum": 1}, "then": {"maximum": 2}, "else": {"maximum": -1}})", R"([-1, 1, 2])",
        R"([0, 3])"},
@@ -67,10 +71,18 @@ TEST(JsonSchema, ReferencesInsideAnotherFileAreToThatFile) {
   EXPECT_EQ(schema.complaint({{"a", 2}}), "/a: const");
 }
 
+TEST(JsonSchema, ReferencesMayBeToAPlaceInAnotherFile) {
+  const JsonSchema other(Json::parse(R"({"$defs": {"it": {"const": 1}, "that": {"$ref": "#/$defs/it"}}})"));
+  const JsonSchema schema(Json::parse(R"({"$defs": {"it": {"const": 2}}, "$ref": "other.json#/$defs/that"})"),
+                          {{"other.json", other}});
+  EXPECT_EQ(schema.complaint(1), "");
+  EXPECT_EQ(schema.complaint(2), ": const");
+}
+
 TEST(JsonSchema, WhatItDoesNotKnowIsAnErrorNotAPass) {
   EXPECT_THROW(JsonSchema(Json::parse(R"({"multipleOf": 2})")).complaint(4), std::logic_error);
   EXPECT_THROW(JsonSchema(Json::parse(R"({"type": "null"})")).complaint(nullptr), std::logic_error);
-  EXPECT_THROW(JsonSchema(Json::parse(R"({"additionalProperties": {}})")).complaint(Json::object()),
+  EXPECT_THROW(JsonSchema(Json::parse(R"({"patternProperties": {}})")).complaint(Json::object()),
                std::logic_error);
   EXPECT_THROW(JsonSchema(Json::parse(R"({"$ref": "absent.json"})")).complaint(1), std::exception);
 }

@@ -89,6 +89,30 @@ TEST(MaterialJson, EveryMaterialSurvivesAFileBitForBit) {
   }
 }
 
+TEST(MaterialJson, EffectsAndValuesAloneComeBackBitForBitWithModelAndOptionsOfAnother) {
+  for (const Material& material : many_materials()) {
+    const Json json = Json::parse(effects_and_values_to_json(material).dump());
+    EXPECT_EQ(json.size(), 2U);
+    EXPECT_FALSE(json["parameters"].contains("base_color_srgb8"));
+    Material like(material.model());
+    like.options() = material.options();
+    EXPECT_EQ(material_from_effects_and_values(like, json, "m.json"), material);
+  }
+}
+
+TEST(MaterialJson, WrongEffectsAndValuesAloneAreRefused) {
+  Material material(Model::kBurley);
+  material.set_effects(Effects().with(Effect::kSheen));
+  const Json sound = effects_and_values_to_json(material);
+  for (const char* change : {R"({"extra": 1})", R"({"effects": null})", R"({"effects": []})",
+                             R"({"effects": ["dual_specular"]})", R"({"parameters": null})",
+                             R"({"parameters": {"roughness": 2}})", R"({"parameters": {"clearcoat": 1}})"}) {
+    Json json = sound;
+    json.merge_patch(Json::parse(change));
+    EXPECT_THROW(material_from_effects_and_values(material, json, "m.json"), IoError) << change;
+  }
+}
+
 TEST(MaterialJson, EvidenceIsWrittenAndIgnoredWhenRead) {
   const TempFolder folder;
   const Material material(Model::kBurley);

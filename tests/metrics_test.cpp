@@ -182,6 +182,30 @@ TEST(Evaluate, OfATableFollowsTheDefinitions) {
   }
 }
 
+// Lines shorter than a vector, with and without a middle, at the ends of the table.
+TEST(Evaluate, OnTinyGridsFollowsTheDefinitions) {
+  for (const CellAnchor anchor : {CellAnchor::kLowerEdge, CellAnchor::kCentre}) {
+    for (const Grid& grid : {Grid{5, 4, 7, anchor}, Grid{2, 9, 2, anchor}, Grid{3, 2, 1, anchor}}) {
+      const MeasuredTable reference =
+          table_of(random_full_material(Model::kBurley, effects_of(Model::kBurley), 4), grid);
+      const Material material = random_full_material(Model::kCallisto, effects_of(Model::kCallisto), 6);
+      const MeasuredTable candidate = table_of(material, grid);
+      const CellValue stored = [&](std::size_t cell, const DirectionPair&) { return candidate.value(cell); };
+      SCOPED_TRACE(testing::Message() << grid.n_theta_h << " x " << grid.n_theta_d << " x " << grid.n_phi_d);
+      // Of a few cells, errors of single precision do not cancel.
+      constexpr double kRoundingOfFew = 5e-6;
+      const Expected of_material = expected_sums(mean_of_orders(material), reference, 90.0);
+      const Expected of_table = expected_sums(stored, reference, 90.0);
+      const Evaluation actual = evaluate(material, reference);
+      expect_measures(actual.table, of_material.table, kRoundingOfFew);
+      EXPECT_EQ(actual.table.cells, of_material.table_cells);
+      const Evaluation stored_actual = evaluate(candidate, reference);
+      expect_measures(stored_actual.table, of_table.table, kRoundingOfFew);
+      EXPECT_EQ(stored_actual.table.cells, of_table.table_cells);
+    }
+  }
+}
+
 // What `export` followed by `table` shows is what `fit` printed: stored values are floats.
 TEST(Evaluate, OfAnExportedTableIsThatOfItsMaterial) {
   const MeasuredTable reference = rough_table(kSmallGrid);

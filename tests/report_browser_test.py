@@ -83,7 +83,9 @@ def check_images(browser):
             time.sleep(0.02)
         width = browser.execute_script(is_loaded, image)
         check(width, "an image did not load")
-        check(str(width) == image.get_attribute("width"), "an image has another width than it claims")
+        # Not what the layout made of it.
+        claimed = browser.execute_script("return arguments[0].getAttribute('width')", image)
+        check(str(width) == claimed, "an image has another width than it claims")
         check(bool(image.get_attribute("alt")), "an image has no alternative text")
     browser.execute_script("scrollTo(0, 0)")
 
@@ -145,6 +147,43 @@ def check_sorting(browser):
     check(saw_missing, "the report has cells without a value")
 
 
+def check_ladders(browser):
+    """Each ladder has its slices side by side, in the order of its rungs, and a plot that is not cut."""
+    ladders = browser.find_elements(By.CSS_SELECTOR, ".ladder")
+    check(len(ladders) == 5, f"5 ladders, not {len(ladders)}")
+    for ladder in ladders:
+        numbers = [number.text for number in ladder.find_elements(By.CSS_SELECTOR, ".at-rung")]
+        check(numbers == [str(k) for k in range(8)], f"rungs {numbers}")
+        places = [(e.rect["y"], e.rect["x"]) for e in ladder.find_elements(By.CSS_SELECTOR, ".rung")]
+        check(places == sorted(places), "rungs are not in the order of reading")
+        check(len({x for _, x in places}) >= 3, "fewer than three slices stand side by side")
+        box = ladder.rect
+        for part in ladder.find_elements(By.CSS_SELECTOR, "img, svg"):
+            inside = part.rect["x"] >= box["x"] - 1 and (
+                part.rect["x"] + part.rect["width"] <= box["x"] + box["width"] + 1)
+            check(inside and part.rect["width"] > 50, "a part of a ladder is cut or hardly seen")
+
+
+def check_error_bars(browser):
+    """Bars lie on their ranges, arrows included, and show in colour."""
+    bars = browser.execute_script("""
+        return [...document.querySelectorAll('.range .sure')].map(bar => {
+          const at = bar.getBoundingClientRect(), range = bar.parentElement.getBoundingClientRect();
+          return [at.left - range.left, range.right - at.right, at.width, at.height,
+                  getComputedStyle(bar).color];
+        });""")
+    check(len(bars) == 45, f"45 error bars, not {len(bars)}")
+    for left, right, width, height, colour in bars:
+        check(left >= -0.5 and right >= -0.5, f"an error bar leaves its range by {min(left, right)} px")
+        check(width >= 2 and height >= 3, f"an error bar is {width} px by {height} px")
+        check(colour != "rgba(0, 0, 0, 0)", "an error bar has no colour")
+    rows = browser.find_elements(By.XPATH, "//table[@class='parameters']//tr[contains(., 'unidentifiable')]")
+    check(len(rows) == 15, f"15 unidentifiable parameters, not {len(rows)}")
+    for row in rows:
+        check("tied to specular" in row.text, "an unidentifiable parameter gives no reason")
+        check(not row.find_elements(By.CSS_SELECTOR, ".sure"), "an unidentifiable parameter has an error bar")
+
+
 def check_stability(browser):
     """Rows that are equal stay in the order of the file."""
     columns = browser.execute_script(COLUMNS)
@@ -181,6 +220,12 @@ def check_keyboard(browser):
 
 
 def check_viewer(browser):
+    # The plot of a ladder is alone there: arrows lead nowhere, and break nothing.
+    plot = browser.find_element(By.CSS_SELECTOR, ".ladder .zoom")
+    browser.execute_script("arguments[0].focus()", plot)
+    plot.send_keys(Keys.ENTER)
+    check(browser.find_elements(By.CSS_SELECTOR, "#viewer svg"), "Enter opens no plot")
+    browser.switch_to.active_element.send_keys(Keys.ARROW_RIGHT, Keys.ESCAPE)
     zoom = browser.find_element(By.CSS_SELECTOR, ".zoom")
     browser.execute_script("arguments[0].focus()", zoom)
     zoom.send_keys(Keys.ENTER)
@@ -214,10 +259,9 @@ def check_width(browser, size, file):
     width, inner = browser.execute_script("return [document.scrollingElement.scrollWidth, innerWidth]")
     check(inner == size[0], f"the page is {inner} px wide, not {size[0]}")
     check(width <= inner, f"the page is {width} px wide in a window of {inner} px")
-    if size == WIDE:
-        cut = browser.execute_script(
-            "return [...document.querySelectorAll('.fit .scroll')].filter(e => e.scrollWidth > e.clientWidth).length")
-        check(cut == 0, f"{cut} lists of parameters do not fit into a wide window")
+    cut = browser.execute_script(
+        "return [...document.querySelectorAll('.fit .scroll')].filter(e => e.scrollWidth > e.clientWidth).length")
+    check(cut == 0, f"{cut} lists of parameters do not fit into a window of {inner} px")
     screenshot(browser, file)
 
 
@@ -270,6 +314,8 @@ def main():
         browser.get(report.as_uri())
         check(browser.title == "results – brdfit report", f"title {browser.title!r}")
         check_images(browser)
+        check_ladders(browser)
+        check_error_bars(browser)
         check_width(browser, WIDE, folder / "wide.png")
         check_sorting(browser)
         check_stability(browser)
@@ -277,6 +323,8 @@ def main():
         check_viewer(browser)
         check_keyboard(browser)
         check_width(browser, NARROW, folder / "narrow.png")
+        check_ladders(browser)
+        check_error_bars(browser)
         check_keyboard(browser)
         resize(browser, WIDE)
         browser.execute_cdp_cmd("Emulation.setEmulatedMedia",

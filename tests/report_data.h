@@ -55,6 +55,38 @@ inline render::ReportPicture plot_picture(const Material& material) {
   return picture;
 }
 
+// A small square. All are the same, encoded once: there are many of them.
+inline render::ReportPicture tile(const std::string& alt) {
+  static const render::ReportPicture kSquare = gradient_picture(128, 128);
+  render::ReportPicture picture = kSquare;
+  picture.alt = alt;
+  return picture;
+}
+
+// Effects come one by one, one goes again.
+inline render::ReportLadder sample_ladder(int rungs) {
+  constexpr const char* kNames[] = {"diffuse_fresnel", "diffuse_fresnel_tangent_falloff", "retroreflection",
+                                    "smooth_terminator"};
+  render::ReportLadder ladder;
+  for (int k = 0; k < rungs; ++k) {
+    render::ReportRung rung;
+    if (k > 0) rung.groups = {kNames[k % 4], kNames[(k + 1) % 4]};
+    rung.is_removal = k == rungs - 1;
+    rung.held_out_pct = 20.0 + 18.0 / (1.0 + k) + (rung.is_removal ? 0.1 : 0.0);
+    if (k > 0) rung.standard_error_pct = 0.8 / k;
+    rung.free_parameters = 6 + 3 * k - (rung.is_removal ? 5 : 0);
+    rung.evaluation_ns = 8.0 + k;
+    rung.slice = tile("slice of rung " + std::to_string(k));
+    rung.difference = tile("log-ratio of rung " + std::to_string(k));
+    ladder.rungs.push_back(rung);
+  }
+  ladder.held_out_all_pct = 22.5;
+  ladder.free_parameters_all = 29;
+  ladder.measured = tile("measured slice");
+  ladder.colour_bar = tile("colours");
+  return ladder;
+}
+
 // Numbers that look like those of fits, different in every fit.
 inline render::ReportFit sample_fit(const std::string& model, std::uint64_t seed) {
   const synthetic::CounterRandom random(seed, 0);
@@ -75,6 +107,17 @@ inline render::ReportFit sample_fit(const std::string& model, std::uint64_t seed
       {"metallic", "0 dielectric, 1 metal", {random.uniform(counter)}, 0.0, 1.0, 0.0, "", "unidentifiable"},
       {"roughness", "alpha = roughness^2", {0.01}, 0.01, 1.0, 0.5, "", "at lower bound"},
       {"diffuse_fresnel_tangent_falloff", "strength of the rim", {24.2737}, 0.0, 100.0, 1.0, "", "fixed"}};
+  fit.parameters[0].standard_errors = {0.15, 0.02, std::nullopt};
+  fit.parameters[1].standard_errors = {std::nullopt};
+  fit.parameters[1].reason = "tied to specular: another combination fits as well";
+  fit.parameters.push_back({"roughness_2", "alpha of another", {0.4}, 0.01, 1.0, 0.5, "", "ok", {0.5}, ""});
+  if (model == "Callisto") {
+    fit.ladder = sample_ladder(8);
+    fit.losses = {{"log-ratio", 3.0, false}, {"srgb", 2.0, true}, {"linear", 2.5, false}};
+    for (const double correlation : {0.96, -0.98, 0.97, 0.99, -0.999, 0.951}) {
+      fit.correlated.push_back({"diffuse_fresnel_tangent_falloff", "base_color.r", correlation});
+    }
+  }
   fit.notes = {"metallic and specular cannot be told apart: f0 is 0.09 at most"};
   fit.timings_seconds = {{"explore", 0.4}, {"refine", 0.15}, {"fit", 0.55 + random.uniform(counter + 1)}};
   fit.provenance = {

@@ -200,6 +200,110 @@ TEST(Report, ParametersStandOnTheirRanges) {
   EXPECT_THAT(html, Not(HasSubstr("left:inf")));
 }
 
+// The marks on the range of one parameter.
+std::string marks_of(const ReportParameter& parameter) {
+  Report report = small_report();
+  report.materials[0].fits[0].parameters = {parameter};
+  return between(report_html(report), "<span class=\"range", "<span class=\"ends");
+}
+
+TEST(Report, ErrorBarsSpan196StandardErrorsToBothSides) {
+  // 0.5 +- 0.196 of a range from 0 to 1.
+  const std::string marks = marks_of({"x", "", {0.5}, 0.0, 1.0, 0.5, "", "ok", {0.1}});
+  EXPECT_THAT(marks, HasSubstr("<i class=\"sure only\" style=\"left:30.40%;width:39.20%\">"));
+  EXPECT_THAT(marks, HasSubstr("95% interval 0.304 to 0.696"));
+}
+
+TEST(Report, ErrorBarsEndOpenWhereTheyLeaveTheRange) {
+  EXPECT_THAT(marks_of({"x", "", {0.1}, 0.0, 1.0, 0.5, "", "ok", {0.1}}),
+              HasSubstr("<i class=\"sure only below\" style=\"left:0.00%;width:29.60%\">"));
+  EXPECT_THAT(marks_of({"x", "", {30.0}, 10.0, 30.0, 20.0, "", "ok", {5.0}}),
+              HasSubstr("<i class=\"sure only beyond\" style=\"left:51.00%;width:49.00%\">"));
+  EXPECT_THAT(marks_of({"x", "", {0.4}, 0.0, 1.0, 0.5, "", "ok", {1e300}}),
+              HasSubstr("<i class=\"sure only below beyond\" style=\"left:0.00%;width:100.00%\">"));
+}
+
+TEST(Report, ErrorBarsAreThoseOfTheChannelsThatHaveOne) {
+  const std::string marks =
+      marks_of({"c", "", {0.2, 0.5, 0.8}, 0.0, 1.0, 0.5, "", "ok", {0.01, std::nullopt, 0.02}});
+  EXPECT_EQ(count_of(marks, "class=\"sure"), 2U);
+  EXPECT_EQ(count_of(marks, "sure red"), 1U);
+  EXPECT_EQ(count_of(marks, "sure green"), 0U);
+  EXPECT_EQ(count_of(marks, "sure blue"), 1U);
+}
+
+TEST(Report, WhatTheSamplesDoNotSayHasNoErrorBarAndTheReasonInWords) {
+  Report report = small_report();
+  report.materials[0].fits[0].parameters = {
+      {"a", "", {0.5}, 0.0, 1.0, 0.5, "", "unidentifiable", {std::nullopt}, "metallic is 1 & <b>"},
+      {"b", "", {0.5}, 0.0, 1.0, 0.5, "", "ok"},
+      {"c", "", {0.5}, 0.0, 1.0, 0.5, "", "ok", {std::numeric_limits<double>::quiet_NaN()}},
+      {"d", "", {2.0}, 0.0, 1.0, 0.5, "", "ok", {0.1}}};
+  const std::string html = report_html(report);
+  EXPECT_EQ(count_of(html, "class=\"sure"), 0U);
+  EXPECT_THAT(html, HasSubstr("unidentifiable</span><small>metallic is 1 &amp; &lt;b&gt;</small>"));
+}
+
+TEST(Report, CorrelatedPairsStandByNameTheClosestFirst) {
+  Report report = small_report();
+  ReportFit& fit = report.materials[0].fits[0];
+  EXPECT_THAT(report_html(report), Not(HasSubstr("class=\"correlated\"")));
+  fit.correlated = {{"specular", "metallic", 0.96}, {"sheen_tint", "base_color.r", -0.99}};
+  std::string list = between(report_html(report), "class=\"correlated\"", "</div>");
+  EXPECT_THAT(list, HasSubstr("sheen_<wbr>tint and base_<wbr>color.r"));
+  EXPECT_LT(list.find("(-0.990)"), list.find("(+0.960)"));
+  EXPECT_THAT(list, Not(HasSubstr("<details>")));
+  fit.correlated.resize(20, {"a", "b", 0.97});
+  list = between(report_html(report), "class=\"correlated\"", "</div>");
+  EXPECT_THAT(list, HasSubstr("<summary>16 more</summary>"));
+  EXPECT_EQ(count_of(list, "<li>"), 20U);
+}
+
+TEST(Report, LossesSayWhichWonAndByHowMuch) {
+  Report report = small_report();
+  ReportFit& fit = report.materials[0].fits[0];
+  EXPECT_THAT(report_html(report), Not(HasSubstr("class=\"losses\"")));
+  fit.losses = {{"log-ratio", 3.0, false}, {"srgb", 2.0, true}, {"linear", 2.5, false}};
+  const std::string html = between(report_html(report), "class=\"losses\"", "</table>");
+  EXPECT_THAT(html, HasSubstr("<b>srgb</b> was kept: ΔE 0.50 less (20.0%) than the next, linear"));
+  EXPECT_LT(html.find("srgb<span"), html.find(">linear<"));
+  EXPECT_LT(html.find(">linear<"), html.find(">log-ratio<"));
+  EXPECT_EQ(count_of(html, "(kept)"), 1U);
+  fit.losses = {{"log-ratio", 2.0, true}, {"srgb", 2.0, false}};
+  EXPECT_THAT(report_html(report), HasSubstr("<b>log-ratio</b> was kept, the first of equals"));
+}
+
+TEST(Report, ALadderHasATileForEveryRungAndOneForTheMeasurement) {
+  Report report = small_report();
+  report.materials[0].fits[0].ladder = testing_support::sample_ladder(5);
+  const std::string html = between(report_html(report), "<section class=\"ladder\"", "</section>");
+  EXPECT_EQ(count_of(html, "<li "), 6U);
+  EXPECT_EQ(count_of(html, "<img "), 12U);
+  EXPECT_EQ(count_of(html, "class=\"rung removed\""), 1U);
+  EXPECT_THAT(html,
+              HasSubstr("</b> Lambert + GGX</p><p><b>38.00%</b></p><p class=\"quiet\">6 free, 8.0 ns</p>"));
+  EXPECT_THAT(html,
+              HasSubstr("</b>&nbsp;+ diffuse fresnel tangent falloff, retroreflection</p><p><b>29.00%</b> "
+                        "<span class=\"number\">−9.00 ± 0.80</span></p>"));
+  EXPECT_THAT(html, HasSubstr("</b>&nbsp;− diffuse fresnel (tangent falloff)<"));
+  EXPECT_THAT(html, HasSubstr("With all effects on: 22.50%, 29 free."));
+  EXPECT_EQ(count_of(html, "<svg "), 1U);
+}
+
+TEST(Report, ALadderWithoutMaterialsSaysSoAndKeepsItsPlot) {
+  Report report = small_report();
+  ReportLadder ladder = testing_support::sample_ladder(3);
+  for (ReportRung& rung : ladder.rungs) rung.slice = rung.difference = {};
+  ladder.measured = ladder.colour_bar = {};
+  ladder.rungs[1].groups = {"<b>"};
+  report.materials[0].fits[0].ladder = ladder;
+  const std::string html = between(report_html(report), "<section class=\"ladder\"", "</section>");
+  EXPECT_EQ(count_of(html, "<img "), 0U);
+  EXPECT_EQ(count_of(html, "<svg "), 1U);
+  EXPECT_THAT(html, HasSubstr("their slices are not drawn"));
+  EXPECT_THAT(html, HasSubstr("&nbsp;+ &lt;b&gt;"));
+}
+
 TEST(Report, OnlyColoursReachTheStyle) {
   Report report = small_report();
   report.materials[0].fits[0].parameters = {

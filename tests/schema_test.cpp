@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <limits>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include "data/synthetic/generate.h"
 #include "data/synthetic/random_material.h"
 #include "tests/json_schema.h"
 #include "tests/program.h"
+#include "tests/schema_tools.h"
 #include "tests/temp_folder.h"
 
 namespace brdfit {
@@ -18,7 +20,12 @@ namespace {
 
 using io::Json;
 using synthetic::Recipe;
+using tests::complaint_with;
+using tests::expect_all_members_are_described;
+using tests::expect_all_numbers_are_bounded;
 using tests::JsonSchema;
+using tests::members_of;
+using tests::without;
 
 const std::filesystem::path kSource = BRDFIT_SOURCE_DIR;
 
@@ -29,76 +36,6 @@ JsonSchema material_schema() {
 JsonSchema recipe_schema() {
   return JsonSchema(io::read_json(kSource / "docs/schema/recipe.schema.json"),
                     {{"material.schema.json", material_schema()}});
-}
-
-// The places of all members of objects in a document, those in lists too.
-void list_members(const Json& value, const Json::json_pointer& place,
-                  std::vector<Json::json_pointer>& found) {
-  if (!value.is_structured()) return;
-  for (const auto& [key, member] : value.items()) {
-    const Json::json_pointer at = value.is_array() ? place / std::stoul(key) : place / key;
-    if (value.is_object()) found.push_back(at);
-    list_members(member, at, found);
-  }
-}
-
-std::vector<Json::json_pointer> members_of(const Json& document) {
-  std::vector<Json::json_pointer> found;
-  list_members(document, Json::json_pointer(), found);
-  return found;
-}
-
-Json without(Json document, const Json::json_pointer& member) {
-  document[member.parent_pointer()].erase(member.back());
-  return document;
-}
-
-Json renamed(const Json& document, const Json::json_pointer& member) {
-  Json result = without(document, member);
-  result[member.parent_pointer() / (member.back() + "_")] = document[member];
-  return result;
-}
-
-Json nulled(Json document, const Json::json_pointer& member) {
-  document[member] = nullptr;
-  return document;
-}
-
-Json with_sibling(Json document, const Json::json_pointer& member) {
-  document[member.parent_pointer()]["extra"] = 1;
-  return document;
-}
-
-// What says with null that there is none.
-bool may_be_null(const Json::json_pointer& member) {
-  return member.back() == "standard_error";
-}
-
-// No object of the document takes a member of another name, and no other member may be null.
-void expect_all_members_are_described(const JsonSchema& schema, const Json& document) {
-  for (const Json::json_pointer& member : members_of(document)) {
-    EXPECT_NE(schema.complaint(renamed(document, member)), "") << member;
-    EXPECT_TRUE(may_be_null(member) || !schema.complaint(nulled(document, member)).empty()) << member;
-    EXPECT_NE(schema.complaint(with_sibling(document, member)), "") << member;
-  }
-}
-
-// No number of the document may be anything: -1000 is below the range of all.
-void expect_all_numbers_are_bounded(const JsonSchema& schema, const Json& document) {
-  const Json leaves = document.flatten();
-  for (const auto& [place, leaf] : leaves.items()) {
-    if (!leaf.is_number()) continue;
-    Json json = document;
-    json[Json::json_pointer(place)] = -1000;
-    EXPECT_NE(schema.complaint(json), "") << place;
-  }
-}
-
-// What complaint there is about a document when one place is set to a value.
-std::string complaint_with(const JsonSchema& schema, Json document, const std::string& place,
-                           const Json& value) {
-  document[Json::json_pointer(place)] = value;
-  return schema.complaint(document);
 }
 
 Recipe small_recipe(Model model) {
@@ -371,8 +308,14 @@ TEST_F(FitSchema, WrongValuesInTheEvidenceAreRefused) {
     ["/parameters/base_color/channel_status", ["ok", "ok", "ok", "ok"]], ["/notes", [1]],
     ["/sphere_delta_e", -1], ["/sphere_delta_e_by_light", {}], ["/sphere_delta_e_by_light/90", -1],
     ["/sphere_delta_e_by_light/45", 1], ["/sphere_pixels_skipped", 0.5], ["/timings_seconds/sphere", -1],
-    ["/notes", [""]], ["/timings_seconds/fit", -1]
+    ["/notes", [""]], ["/timings_seconds/fit", -1],
+    ["/ladder_start", null], ["/ladder_start/effects", ["sheen"]],
+    ["/ladder_start/effects", ["dual_specular"]], ["/ladder_start/parameters/roughness", 2],
+    ["/ladder_start/parameters/dual_specular_opacity", 0.5], ["/ladder_start/parameters/base_color", 0.5],
+    ["/ladder/0/material", {}], ["/ladder/0/material/effects", ["clearcoat"]],
+    ["/ladder/0/material/parameters/roughness", 0], ["/ladder/0/material/parameters", {"roughness": 0.5}]
   ])");
+  ASSERT_FALSE(written[0]["fit"]["ladder"].empty());
   for (const Json& change : wrong) {
     const std::string place = "/fit" + change[0].get<std::string>();
     EXPECT_NE(complaint_with(schema_, written[0], place, change[1]), "") << change;
@@ -388,6 +331,31 @@ TEST_F(FitSchema, WrongValuesInTheEvidenceAreRefused) {
   for (const Json& change : sound) {
     const std::string place = "/fit" + change[0].get<std::string>();
     EXPECT_EQ(complaint_with(schema_, written[0], place, change[1]), "") << change;
+  }
+}
+
+TEST_F(FitSchema, GroupsAreThoseOfTheModel) {
+  const std::vector<Json> written = fit("--samples 500 --starts 1");
+  ASSERT_EQ(written.size(), 3U);
+  const std::vector<std::pair<std::string, std::string>> groups = {
+      {"burley", "clearcoat"}, {"callisto", "dual_specular"}, {"callisto", "smooth_terminator_length"}};
+  const Json step = Json::parse(R"({"action": "added", "held_out_before_pct": 2, "held_out_after_pct": 1,
+                                    "standard_error_pct": 0.1, "parameters": 1})");
+  for (const Json& material : written) {
+    for (const auto& [model, group] : groups) {
+      const bool is_own = material["model"] == model;
+      Json ladder = Json::array({step});
+      ladder[0]["groups"] = {group};
+      std::vector<std::pair<std::string, Json>> places = {{"/fit/groups", {group}},
+                                                          {"/fit/options/effects", {group}}};
+      if (material["fit"].contains("ladder")) places.emplace_back("/fit/ladder", ladder);
+      for (const auto& [place, value] : places) {
+        Json changed = material;
+        if (place == "/fit/options/effects") changed["fit"]["options"].erase("group_threshold");
+        EXPECT_EQ(complaint_with(schema_, changed, place, value).empty(), is_own)
+            << material["model"] << place << group;
+      }
+    }
   }
 }
 

@@ -9,6 +9,7 @@
 #include "fit/fit.h"
 #include "fit/log_ratio.h"
 #include "fit/metrics.h"
+#include "fit/problem.h"
 #include "tests/selection_study.h"
 
 namespace brdfit::fit {
@@ -117,6 +118,41 @@ TEST(Selection, IsNeverWorseThanEverythingByMoreThanTheThreshold) {
       }
     }
   }
+}
+
+// What a material costs on samples under the loss of the folds.
+double cost_of(const Material& material, Groups groups, const SampleSet& samples) {
+  const Model model = material.model();
+  const Parametrisation parametrisation =
+      make_parametrisation(Material(model), {Tier::kFull, effects_of_groups(model, groups), {}, groups});
+  const Targets targets = make_targets(samples, Loss::kLogRatio);
+  return Problem(parametrisation, samples, targets, Loss::kLogRatio)
+      .cost(parametrisation.from_material(material));
+}
+
+TEST(Selection, HasAMaterialForEveryStepThatFitsAllSamplesAtLeastAsWellAsAnyFold) {
+  const MeasuredTable table = noisy_table(callisto_with(effects_of(Model::kCallisto), 11), 0.01, 11);
+  CrossValidation validation = testing_support::validation_of(table, Model::kCallisto);
+  Selection selection =
+      select_groups(validation, Model::kCallisto, {every_group(Model::kCallisto), {}, kGroupThreshold});
+  const SampleSet samples = sample_table(table, 2000, 1, {});
+  fit_ladder(validation, samples, selection);
+  ASSERT_GT(selection.ladder.size(), 1U);
+  const auto check = [&](const Material& material, Groups set) {
+    EXPECT_EQ(material.effects(), effects_of_groups(Model::kCallisto, set));
+    EXPECT_TRUE(material.is_valid(nullptr));
+    for (const ParameterInfo& info : parameters_of(Model::kCallisto)) {
+      const auto group = group_of_parameter(Model::kCallisto, info.name);
+      if (!group || set.has(*group)) continue;
+      EXPECT_EQ(material.number(info.name), info.default_value) << info.name;
+    }
+    const double cost = cost_of(material, set, samples);
+    for (const Material& of_fold : validation.materials(set)) {
+      EXPECT_LE(cost, cost_of(of_fold, set, samples) * (1.0 + 1e-12));
+    }
+  };
+  check(selection.material_without, selection.required);
+  for (const LadderStep& step : selection.ladder) check(step.material, step.set);
 }
 
 TEST(Selection, HoldsALadderFromItsBeginningToItsEnd) {

@@ -4,6 +4,9 @@
 
 #include <limits>
 #include <random>
+#include <span>
+#include <utility>
+#include <vector>
 
 #include "fit/select.h"
 #include "tests/fit_data.h"
@@ -38,12 +41,36 @@ inline fit::Groups every_group(Model model) {
   return fit::groups_of_effects(model, effects_of(model));
 }
 
+// A table in two parts: what choices and fits see, and samples of what they do not. Blocks of angles are set
+// aside, as neighbouring cells are alike.
+struct SplitTable {
+  MeasuredTable seen;
+  SampleSet aside;
+};
+
+inline SplitTable split(const MeasuredTable& table, std::uint64_t seed) {
+  // Another number than that of the folds: else blocks of both would be the same boxes.
+  const fit::AngleBlocks blocks(table.grid(), 6, seed);
+  std::vector<float> seen;
+  std::vector<float> aside;
+  for (int channel = 0; channel < 3; ++channel) {
+    const std::span<const float> plane = table.plane(channel);
+    for (std::size_t cell = 0; cell < plane.size(); ++cell) {
+      const bool is_aside = blocks.fold_of(cell) == 0;
+      seen.push_back(is_aside ? -1.0F : plane[cell]);
+      aside.push_back(is_aside ? plane[cell] : -1.0F);
+    }
+  }
+  return {{table.grid(), std::move(seen)}, sample_table({table.grid(), std::move(aside)}, 6000, seed, {})};
+}
+
 // A material of which a random half of the model's effects is part, drawn again until each is so strong that
 // the held-out error without it is higher by `strength` (a share of it), as fits with many starts have it.
 struct Study {
   Material material;
   Effects effects;
-  MeasuredTable table;
+  MeasuredTable table;  // that choices and fits see
+  SampleSet aside;      // that they do not
 };
 
 inline double weakest_effect(const MeasuredTable& table, Model model, Effects effects) {
@@ -67,9 +94,11 @@ inline Study make_study(Model model, Tier tier, double strength, std::uint64_t s
     for (const fit::Group& group : fit::groups_of(model)) {
       if (!group.refines && (random() >> 63) != 0) effects = effects.with(group.effect);
     }
-    Study study = {synthetic::random_material(model, tier, effects, {}, random()), {}, {}};
+    Study study = {synthetic::random_material(model, tier, effects, {}, random()), {}, {}, {}};
     study.effects = study.material.effects();
-    study.table = noisy_table(study.material, 0.01, seed);
+    SplitTable parts = split(noisy_table(study.material, 0.01, seed), seed);
+    study.table = std::move(parts.seen);
+    study.aside = std::move(parts.aside);
     if (weakest_effect(study.table, model, study.effects) >= strength) return study;
   }
 }

@@ -69,8 +69,9 @@ class TableRun : public tests::CliFixture {
     return folder;
   }
 
-  // Begins a run, sends it a signal once there are some results, and returns its exit status as wait() says.
-  int signalled(const std::string& out, int signal) {
+  // Begins a run, sends it a signal once there are so many results, and returns its exit status as wait()
+  // says.
+  int signalled(const std::string& out, int signal, std::size_t results = 2, const char* threads = "1") {
     const pid_t child = fork();
     if (child == 0) {
       const int nowhere = open("/dev/null", O_WRONLY);
@@ -79,16 +80,20 @@ class TableRun : public tests::CliFixture {
       const std::string in = path("in").string();
       const std::string folder = path(out).string();
       execl(BRDFIT_PROGRAM, "brdfit", "table", in.c_str(), "--samples", "800", "--starts", "2", "--threads",
-            "1", "-o", folder.c_str(), nullptr);
+            threads, "-o", folder.c_str(), nullptr);
       _exit(127);
     }
     int status = 0;
-    while (files_in(out) < 2 && waitpid(child, &status, WNOHANG) == 0) {
+    while (results_in(out) < results && waitpid(child, &status, WNOHANG) == 0) {
       std::this_thread::sleep_for(std::chrono::milliseconds(1));
     }
     kill(child, signal);
     waitpid(child, &status, 0);
     return status;
+  }
+
+  std::size_t results_in(const std::string& folder) const {
+    return std::filesystem::exists(path(folder)) ? times(folder).size() : 0;
   }
 
   std::map<std::string, std::filesystem::file_time_type> times(const std::string& folder) const {
@@ -162,6 +167,11 @@ TEST_F(TableRun, ThreadsAndFoldersDoNotChangeAByte) {
   ASSERT_EQ(run(table("one", "--threads 1 -q")).exit_code, 0);
   ASSERT_EQ(run(table("two", "--threads 2 -q")).exit_code, 0);
   EXPECT_EQ(contents("one"), contents("two"));
+  // Where the loss is chosen too, by rendered spheres.
+  const std::string loss = "-q --model burley --loss auto --threads ";
+  ASSERT_EQ(run(table("loss-one", loss + "1")).exit_code, 0);
+  ASSERT_EQ(run(table("loss-two", loss + "2")).exit_code, 0);
+  EXPECT_EQ(contents("loss-one"), contents("loss-two"));
 }
 
 TEST_F(TableRun, AFinishedResultIsNotFittedAgain) {
@@ -251,6 +261,24 @@ TEST_F(TableRun, KilledOrInterruptedItGoesOnToTheSameBytes) {
     EXPECT_EQ(contents(out), whole);
     for (const auto& [name, time] : before) EXPECT_EQ(times(out).at(name), time) << name;
   }
+}
+
+TEST_F(TableRun, KilledAgainAndAgainItMakesEachResultOnce) {
+  make_tables();
+  ASSERT_EQ(run(table("whole", "-q")).exit_code, 0);
+  std::map<std::string, std::filesystem::file_time_type> first_seen;
+  int kills = 0;
+  while (!std::filesystem::exists(path("out/table.json")) && kills < 50) {
+    if (WIFSIGNALED(signalled("out", SIGKILL, results_in("out") + 1, "2"))) ++kills;
+    for (const auto& [name, time] : times("out")) {
+      if (name == "table.json") continue;
+      EXPECT_EQ(first_seen.try_emplace(name, time).first->second, time) << name << " after " << kills;
+    }
+  }
+  EXPECT_GE(kills, 2);
+  ASSERT_EQ(run(table("out", "-q")).exit_code, 0);
+  for (const auto& [name, time] : first_seen) EXPECT_EQ(times("out").at(name), time) << name;
+  EXPECT_EQ(contents("out"), contents("whole"));
 }
 
 TEST_F(TableRun, OverwritesNoFilesThatNoRunWrote) {

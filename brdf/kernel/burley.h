@@ -44,6 +44,14 @@ BRDF_REAL_STRUCT(BurleyTerms) {
   Real clearcoat;  // 0.25 D_c F_c V_c cos_i
 };
 
+// What cos_i and cos_o do not change; see lambert_ggx.h.
+BRDF_REAL_STRUCT(BurleyLine) {
+  Real falloff;
+  Real d;            // D of the specular lobe
+  Real clearcoat_d;  // D_c
+  Real clearcoat_f;  // 0.25 F_c
+};
+
 BRDF_REAL_FUNCTION
 OF_REAL(BurleyShape)
 burley_shape(Real roughness, Real subsurface, Real anisotropic, Real clearcoat_gloss, int effects) {
@@ -123,26 +131,50 @@ Real burley_d(OF_REAL(BurleyShape) shape, OF_GEO(Geometry) g, int effects) {
 }
 
 BRDF_FUNCTION
-Real burley_clearcoat(Real clearcoat_alpha, OF_GEO(Geometry) g) {
-  Geo f = fresnel(GEO(0.04), schlick_falloff(g));
-  Geo v = smith_share(GEO(0.25), g.cos_i) * smith_share(GEO(0.25), g.cos_o);
-  return gtr1_d(clearcoat_alpha, g.h_x * g.h_x + g.h_y * g.h_y, g.cos_h) * (GEO(0.25) * f * v);
+OF_REAL(BurleyLine) burley_line(OF_REAL(BurleyShape) shape, OF_GEO(Geometry) g, int effects) {
+  OF_REAL(BurleyLine) line;
+  Geo fh = schlick_falloff(g);
+  line.falloff = TO_REAL(fh);
+  line.d = burley_d(shape, g, effects);
+  line.clearcoat_d = REAL(0.0);
+  line.clearcoat_f = REAL(0.0);
+  if ((effects & BRDF_EFFECT_CLEARCOAT) != 0) {
+    line.clearcoat_d = gtr1_d(shape.clearcoat_alpha, g.h_x * g.h_x + g.h_y * g.h_y, g.cos_h);
+    line.clearcoat_f = TO_REAL(GEO(0.25) * fresnel(GEO(0.04), fh));
+  }
+  return line;
+}
+
+// D V of the specular lobe.
+BRDF_FUNCTION
+Real burley_lobe(OF_REAL(BurleyShape) shape, OF_REAL(BurleyLine) line, OF_GEO(Geometry) g, int burley_g,
+                 int effects) {
+  return line.d * burley_v(shape, g, burley_g, effects);
+}
+
+BRDF_FUNCTION
+OF_REAL(BurleyTerms)
+burley_terms_of_line(OF_REAL(BurleyShape) shape, OF_REAL(BurleyLine) line, Real lobe, OF_GEO(Geometry) g,
+                     int effects) {
+  OF_REAL(BurleyTerms) terms;
+  terms.diffuse = burley_diffuse(shape.roughness, shape.subsurface, g, effects) * g.cos_i;
+  terms.sheen = line.falloff * g.cos_i;
+  terms.falloff = line.falloff;
+  terms.specular = lobe * g.cos_i;
+  terms.clearcoat = REAL(0.0);
+  if ((effects & BRDF_EFFECT_CLEARCOAT) != 0) {
+    Geo v = smith_share(GEO(0.25), g.cos_i) * smith_share(GEO(0.25), g.cos_o);
+    terms.clearcoat = line.clearcoat_d * (line.clearcoat_f * v) * g.cos_i;
+  }
+  return terms;
 }
 
 BRDF_FUNCTION
 OF_REAL(BurleyTerms)
 burley_terms(OF_REAL(BurleyShape) shape, OF_GEO(Geometry) g, int burley_g, int effects) {
-  OF_REAL(BurleyTerms) terms;
-  Geo fh = schlick_falloff(g);
-  terms.diffuse = burley_diffuse(shape.roughness, shape.subsurface, g, effects) * g.cos_i;
-  terms.sheen = TO_REAL(fh * g.cos_i);
-  terms.falloff = TO_REAL(fh);
-  terms.specular = burley_d(shape, g, effects) * burley_v(shape, g, burley_g, effects) * g.cos_i;
-  terms.clearcoat = REAL(0.0);
-  if ((effects & BRDF_EFFECT_CLEARCOAT) != 0) {
-    terms.clearcoat = burley_clearcoat(shape.clearcoat_alpha, g) * g.cos_i;
-  }
-  return terms;
+  OF_REAL(BurleyLine) line = burley_line(shape, g, effects);
+  Real lobe = burley_lobe(shape, line, g, burley_g, effects);
+  return burley_terms_of_line(shape, line, lobe, g, effects);
 }
 
 BRDF_REAL_FUNCTION

@@ -51,6 +51,16 @@ BRDF_REAL_STRUCT(CallistoTerms) {
   Real terminator_step;  // smoothstep(0, a_s p, cos_i)
 };
 
+// What cos_i and cos_o do not change; see lambert_ggx.h.
+BRDF_REAL_STRUCT(CallistoLine) {
+  Real fresnel;  // a_f
+  Real retro;    // a_r
+  Real falloff;  // of the specular Fresnel
+  Real d_1;      // D of the lobes
+  Real d_2;
+  Real terminator;  // a_s
+};
+
 // The exponent 5 r(falloff) of a falloff parameter in [0, 1].
 BRDF_REAL_FUNCTION
 Real callisto_exponent(Real falloff) {
@@ -106,40 +116,71 @@ Geo callisto_terminator_mask(OF_GEO(Geometry) g) {
 }
 
 BRDF_FUNCTION
+OF_REAL(CallistoLine)
+callisto_line(OF_REAL(CallistoShape) shape, OF_GEO(Geometry) g, OF_GEO(GeometryLogs) logs, int effects) {
+  OF_REAL(CallistoLine) line;
+  Geo sin_h_squared = g.h_x * g.h_x + g.h_y * g.h_y;
+  line.fresnel = REAL(0.0);
+  line.retro = REAL(0.0);
+  line.terminator = REAL(0.0);
+  line.d_1 = ggx_d(shape.alpha_1, sin_h_squared, g.cos_h);
+  line.d_2 = REAL(0.0);
+  if ((effects & BRDF_EFFECT_DUAL_SPECULAR) != 0) {
+    line.d_2 = ggx_d(shape.alpha_2, sin_h_squared, g.cos_h);
+  }
+  if ((effects & BRDF_EFFECT_SPECULAR_FRESNEL_FALLOFF) != 0) {
+    line.falloff = callisto_specular_falloff(shape.specular_falloff, g.one_minus_cos_d, logs.one_minus_cos_d);
+  } else {
+    line.falloff = TO_REAL(schlick_falloff(g));
+  }
+  if ((effects & BRDF_EFFECT_DIFFUSE_FRESNEL) != 0) {
+    line.fresnel = power_product(g.one_minus_cos_d, logs.one_minus_cos_d, shape.fresnel_exponent, g.cos_h,
+                                 logs.cos_h, shape.fresnel_tangent_exponent);
+  }
+  if ((effects & BRDF_EFFECT_RETROREFLECTION) != 0) {
+    line.retro = power_product(g.one_minus_cos_h, logs.one_minus_cos_h, shape.retro_exponent, g.cos_d,
+                               logs.cos_d, shape.retro_tangent_exponent);
+  }
+  if ((effects & BRDF_EFFECT_SMOOTH_TERMINATOR) != 0) line.terminator = TO_REAL(callisto_terminator_mask(g));
+  return line;
+}
+
+// The blended D V of the lobes: the same for (wi, wo) and (wo, wi).
+BRDF_FUNCTION
+Real callisto_lobes(OF_REAL(CallistoShape) shape, OF_REAL(CallistoLine) line, OF_GEO(Geometry) g, int masking,
+                    int effects) {
+  Real lobe = line.d_1 * ggx_v(shape.alpha_1, g.cos_i, g.cos_o, masking);
+  if ((effects & BRDF_EFFECT_DUAL_SPECULAR) != 0) {
+    lobe = lerp_real(lobe, line.d_2 * ggx_v(shape.alpha_2, g.cos_i, g.cos_o, masking), shape.opacity);
+  }
+  return lobe;
+}
+
+BRDF_FUNCTION
+OF_REAL(CallistoTerms)
+callisto_terms_of_line(OF_REAL(CallistoShape) shape, OF_REAL(CallistoLine) line, Real lobes,
+                       OF_GEO(Geometry) g, int diffuse, int effects) {
+  OF_REAL(CallistoTerms) terms;
+  terms.diffuse = diffuse_base_cos(shape.alpha_1, g, diffuse);
+  terms.fresnel = line.fresnel;
+  terms.retro = line.retro;
+  terms.falloff = line.falloff;
+  terms.specular = lobes * g.cos_i;
+  terms.terminator = line.terminator;
+  terms.terminator_step = REAL(1.0);
+  if ((effects & BRDF_EFFECT_SMOOTH_TERMINATOR) != 0) {
+    terms.terminator_step = smoothstep_from_zero(line.terminator * shape.terminator_length, g.cos_i);
+  }
+  return terms;
+}
+
+BRDF_FUNCTION
 OF_REAL(CallistoTerms)
 callisto_terms(OF_REAL(CallistoShape) shape, OF_GEO(Geometry) g, OF_GEO(GeometryLogs) logs, int masking,
                int diffuse, int effects) {
-  OF_REAL(CallistoTerms) terms;
-  terms.diffuse = diffuse_base_cos(shape.alpha_1, g, diffuse);
-  terms.fresnel = REAL(0.0);
-  terms.retro = REAL(0.0);
-  terms.terminator = REAL(0.0);
-  terms.terminator_step = REAL(1.0);
-  terms.specular = ggx_lobe(shape.alpha_1, g, masking);
-  if ((effects & BRDF_EFFECT_DUAL_SPECULAR) != 0) {
-    terms.specular = lerp_real(terms.specular, ggx_lobe(shape.alpha_2, g, masking), shape.opacity);
-  }
-  terms.specular = terms.specular * g.cos_i;
-  if ((effects & BRDF_EFFECT_SPECULAR_FRESNEL_FALLOFF) != 0) {
-    terms.falloff =
-        callisto_specular_falloff(shape.specular_falloff, g.one_minus_cos_d, logs.one_minus_cos_d);
-  } else {
-    terms.falloff = TO_REAL(schlick_falloff(g));
-  }
-  if ((effects & BRDF_EFFECT_DIFFUSE_FRESNEL) != 0) {
-    terms.fresnel = power_product(g.one_minus_cos_d, logs.one_minus_cos_d, shape.fresnel_exponent, g.cos_h,
-                                  logs.cos_h, shape.fresnel_tangent_exponent);
-  }
-  if ((effects & BRDF_EFFECT_RETROREFLECTION) != 0) {
-    terms.retro = power_product(g.one_minus_cos_h, logs.one_minus_cos_h, shape.retro_exponent, g.cos_d,
-                                logs.cos_d, shape.retro_tangent_exponent);
-  }
-  if ((effects & BRDF_EFFECT_SMOOTH_TERMINATOR) != 0) {
-    Geo mask = callisto_terminator_mask(g);
-    terms.terminator = TO_REAL(mask);
-    terms.terminator_step = smoothstep_from_zero(mask * shape.terminator_length, g.cos_i);
-  }
-  return terms;
+  OF_REAL(CallistoLine) line = callisto_line(shape, g, logs, effects);
+  Real lobes = callisto_lobes(shape, line, g, masking, effects);
+  return callisto_terms_of_line(shape, line, lobes, g, diffuse, effects);
 }
 
 BRDF_REAL_FUNCTION

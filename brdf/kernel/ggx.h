@@ -56,12 +56,6 @@ Real ggx_v(Real alpha, Geo cos_i, Geo cos_o, int masking) {
   return smith_share(alpha, cos_i) * smith_share(alpha, cos_o);
 }
 
-// D V of one isotropic lobe.
-BRDF_FUNCTION
-Real ggx_lobe(Real alpha, OF_GEO(Geometry) g, int masking) {
-  return ggx_d(alpha, g.h_x * g.h_x + g.h_y * g.h_y, g.cos_h) * ggx_v(alpha, g.cos_i, g.cos_o, masking);
-}
-
 // GTR1 (Burley 2012, eq. 4), for alpha in (0, 1); 1/pi where alpha >= 1.
 BRDF_FUNCTION
 Real gtr1_d(Real alpha, Geo sin_h_squared, Geo cos_h) {

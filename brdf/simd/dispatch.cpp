@@ -12,6 +12,8 @@ BRDFIT_DECLARE_SIMD(void eval_columns(const Coefficients&, const GeometryColumns
                                       double* const[3]))
 BRDFIT_DECLARE_SIMD(void eval_directions(const Coefficients&, const DirectionColumns&, std::size_t,
                                          double* const[3]))
+BRDFIT_DECLARE_SIMD(void eval_lines(const Coefficients&, const LineColumns&, double* const[3],
+                                    double* const[3]))
 
 namespace {
 
@@ -73,6 +75,9 @@ EvalColumns eval_columns(Isa isa) {
 }
 EvalDirections eval_directions(Isa isa) {
   return BRDFIT_PICK(isa, eval_directions);
+}
+EvalLines eval_lines(Isa isa) {
+  return BRDFIT_PICK(isa, eval_lines);
 }
 
 Coefficients coefficients_of(const Material& material) {

@@ -22,6 +22,7 @@ Isa best_isa();
 
 EvalColumns eval_columns(Isa isa);
 EvalDirections eval_directions(Isa isa);
+EvalLines eval_lines(Isa isa);
 
 // A material's coefficients as vector code takes them.
 Coefficients coefficients_of(const Material& material);

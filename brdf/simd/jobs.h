@@ -46,6 +46,33 @@ struct DirectionColumns {
   const double* wo_z = nullptr;
 };
 
+// Lines of a table are evaluated this many at a time, and their pairs in multiples of kLineBlock.
+inline constexpr std::size_t kLines = 8;
+inline constexpr std::size_t kLineBlock = 16;
+
+// Lines of isotropic pairs that share h; along a line cos_d is the same too. All pairs above the horizon.
+struct LineColumns {
+  double sin_h = 0.0;
+  double cos_h = 1.0;
+  double one_minus_cos_h = 0.0;
+  double log_cos_h = 0.0;
+  double log_one_minus_cos_h = 0.0;
+  // One entry for each line; finite for those without pairs as well.
+  double cos_d[kLines] = {};
+  double one_minus_cos_d[kLines] = {};
+  double log_cos_d[kLines] = {};
+  double log_one_minus_cos_d[kLines] = {};
+  std::size_t count[kLines] = {};  // pairs of each line, a multiple of kLineBlock
+  // One line after another, each beginning a multiple of stride.
+  const double* cos_i = nullptr;
+  const double* cos_o = nullptr;
+  std::size_t stride = 0;
+};
+
+// f(wi, wo) in sr^-1 into f, laid out as cos_i, and f(wo, wi) into swapped unless that is null.
+using EvalLines = void (*)(const Coefficients&, const LineColumns&, double* const f[3],
+                           double* const swapped[3]);
+
 // f cos_i in sr^-1, 0 below the horizon, for count pairs (a multiple of kBlock) into three arrays.
 using EvalColumns = void (*)(const Coefficients&, const GeometryColumns&, std::size_t count,
                              double* const out[3]);

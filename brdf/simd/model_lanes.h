@@ -36,7 +36,7 @@ HWY_INLINE kernel::GeometryLogs<V> load_logs(const GeometryColumns& g, std::size
   return r;
 }
 
-// One struct per model: its kernel's shape and colours, and the two steps of its evaluation.
+// One struct per model: its kernel's shape and colours, and the steps of its evaluation.
 struct LambertGgxLanes {
   static constexpr bool uses_logs = false;
   kernel::LambertGgxShape<V> shape;
@@ -51,6 +51,17 @@ struct LambertGgxLanes {
   HWY_INLINE kernel::LambertGgxTerms<V> terms(const kernel::Geometry<V>& g,
                                               const kernel::GeometryLogs<V>&) const {
     return kernel::lambert_ggx_terms(shape, g, masking, diffuse);
+  }
+  HWY_INLINE kernel::LambertGgxLine<V> line(const kernel::Geometry<V>& g,
+                                            const kernel::GeometryLogs<V>&) const {
+    return kernel::lambert_ggx_line(shape, g);
+  }
+  HWY_INLINE V lobe(const kernel::LambertGgxLine<V>& line, const kernel::Geometry<V>& g) const {
+    return kernel::lambert_ggx_lobe(shape, line, g, masking);
+  }
+  HWY_INLINE kernel::LambertGgxTerms<V> terms(const kernel::LambertGgxLine<V>& line, V lobe,
+                                              const kernel::Geometry<V>& g) const {
+    return kernel::lambert_ggx_terms_of_line(shape, line, lobe, g, diffuse);
   }
   HWY_INLINE V combine(int c, const kernel::LambertGgxTerms<V>& terms) const {
     return kernel::lambert_ggx_combine(colour[c], terms);
@@ -73,6 +84,16 @@ struct BurleyLanes {
   HWY_INLINE kernel::BurleyTerms<V> terms(const kernel::Geometry<V>& g,
                                           const kernel::GeometryLogs<V>&) const {
     return kernel::burley_terms(shape, g, burley_g, effects);
+  }
+  HWY_INLINE kernel::BurleyLine<V> line(const kernel::Geometry<V>& g, const kernel::GeometryLogs<V>&) const {
+    return kernel::burley_line(shape, g, effects);
+  }
+  HWY_INLINE V lobe(const kernel::BurleyLine<V>& line, const kernel::Geometry<V>& g) const {
+    return kernel::burley_lobe(shape, line, g, burley_g, effects);
+  }
+  HWY_INLINE kernel::BurleyTerms<V> terms(const kernel::BurleyLine<V>& line, V lobe,
+                                          const kernel::Geometry<V>& g) const {
+    return kernel::burley_terms_of_line(shape, line, lobe, g, effects);
   }
   HWY_INLINE V combine(int c, const kernel::BurleyTerms<V>& terms) const {
     return kernel::burley_combine(colour[c], terms);
@@ -99,6 +120,17 @@ struct CallistoLanes {
   HWY_INLINE kernel::CallistoTerms<V> terms(const kernel::Geometry<V>& g,
                                             const kernel::GeometryLogs<V>& logs) const {
     return kernel::callisto_terms(shape, g, logs, masking, diffuse, effects);
+  }
+  HWY_INLINE kernel::CallistoLine<V> line(const kernel::Geometry<V>& g,
+                                          const kernel::GeometryLogs<V>& logs) const {
+    return kernel::callisto_line(shape, g, logs, effects);
+  }
+  HWY_INLINE V lobe(const kernel::CallistoLine<V>& line, const kernel::Geometry<V>& g) const {
+    return kernel::callisto_lobes(shape, line, g, masking, effects);
+  }
+  HWY_INLINE kernel::CallistoTerms<V> terms(const kernel::CallistoLine<V>& line, V lobes,
+                                            const kernel::Geometry<V>& g) const {
+    return kernel::callisto_terms_of_line(shape, line, lobes, g, diffuse, effects);
   }
   HWY_INLINE V combine(int c, const kernel::CallistoTerms<V>& terms) const {
     return kernel::callisto_combine(colour[c], terms);

@@ -5,14 +5,13 @@
 
 #include <cmath>
 
+#include "data/synthetic/recipe_reader.h"
 #include "io/material_json.h"
 
 namespace brdfit::synthetic {
 namespace {
 
 constexpr int kVersion = 1;
-constexpr double kMaxMultiplicative = 1.0;
-constexpr double kMaxAdditive = 1000.0;
 // The largest double below 1: a fraction of 1 would leave nothing.
 constexpr double kMaxFraction = 1.0 - 0x1p-53;
 // Of the usual grids, only the retroreflective cell at the normal lies closer to the normal.
@@ -61,14 +60,6 @@ Grid read_grid(io::ObjectReader reader) {
   return grid;
 }
 
-Noise read_noise(io::ObjectReader reader) {
-  Noise noise;
-  noise.multiplicative = reader.number("multiplicative", 0.0, kMaxMultiplicative, noise.multiplicative);
-  noise.additive = reader.number("additive", 0.0, kMaxAdditive, noise.additive);
-  reader.finish();
-  return noise;
-}
-
 Invalid read_invalid(io::ObjectReader reader) {
   Invalid invalid;
   invalid.fraction = reader.number("fraction", 0.0, kMaxFraction, invalid.fraction);
@@ -80,7 +71,16 @@ Invalid read_invalid(io::ObjectReader reader) {
   return invalid;
 }
 
-// All 64 bits, which ObjectReader::integer does not span.
+}  // namespace
+
+Noise read_noise(io::ObjectReader reader) {
+  Noise noise;
+  noise.multiplicative = reader.number("multiplicative", 0.0, kMaxMultiplicativeNoise, noise.multiplicative);
+  noise.additive = reader.number("additive", 0.0, kMaxAdditiveNoise, noise.additive);
+  reader.finish();
+  return noise;
+}
+
 std::uint64_t read_seed(io::ObjectReader& reader, std::uint64_t fallback) {
   if (!reader.has("seed")) return fallback;
   const io::Json& value = reader.member("seed");
@@ -94,8 +94,6 @@ std::uint64_t read_seed(io::ObjectReader& reader, std::uint64_t fallback) {
   return value.get<std::uint64_t>();
 }
 
-}  // namespace
-
 bool Recipe::is_valid(std::string* why) const {
   std::string material_why;
   const bool material_good = material.is_valid(&material_why);
@@ -106,8 +104,8 @@ bool Recipe::is_valid(std::string* why) const {
   complaint.check("grid.theta_d", grid.n_theta_d, 1, kMaxDimension);
   complaint.check("grid.phi_d", grid.n_phi_d, 1, kMaxDimension);
   if (complaint.text().empty()) complaint.check(small_enough(grid), "grid has too many cells");
-  complaint.check("noise.multiplicative", noise.multiplicative, 0.0, kMaxMultiplicative);
-  complaint.check("noise.additive", noise.additive, 0.0, kMaxAdditive);
+  complaint.check("noise.multiplicative", noise.multiplicative, 0.0, kMaxMultiplicativeNoise);
+  complaint.check("noise.additive", noise.additive, 0.0, kMaxAdditiveNoise);
   complaint.check("invalid.fraction", invalid.fraction, 0.0, kMaxFraction);
   complaint.check("invalid.blocks", invalid.blocks, 0, kMaxBlocks);
   complaint.check("invalid.block_cells", invalid.block_cells, 1, kMaxBlockCells);

@@ -42,6 +42,15 @@ std::string exact(double value) {
   return std::isfinite(value) ? fmt::format("{}", value) : "";
 }
 
+std::string breakable(const std::string& name) {
+  std::string html;
+  for (const char c : xml_escaped(name)) {
+    html += c;
+    if (c == '_') html += "<wbr>";
+  }
+  return html;
+}
+
 std::string section_id(std::size_t material) {
   return fmt::format("m{}", material);
 }

@@ -21,6 +21,9 @@ std::string shown(double value);
 // The shortest text that reads back as the same number; empty if it is not finite. For data-value.
 std::string exact(double value);
 
+// A name, escaped, that may be broken behind its underscores.
+std::string breakable(const std::string& name);
+
 // "m3": the id of a material's section; "m3-f2": of a fit in it. Both count from 0.
 std::string section_id(std::size_t material);
 std::string fit_id(std::size_t material, std::size_t fit);

@@ -102,7 +102,7 @@
   viewer.addEventListener('keydown', (event) => {
     const step = {ArrowLeft: -1, ArrowRight: 1}[event.key];
     if (!step || pane.scrollWidth > pane.clientWidth) return;
-    const all = Array.from(shown.closest('.pictures').querySelectorAll('.zoom'));
+    const all = Array.from(shown.closest('.pictures, .ladder').querySelectorAll('.zoom'));
     const next = all[all.indexOf(shown) + step];
     if (next) { show(next); event.preventDefault(); }
   });

@@ -1,0 +1,49 @@
+// Codes of amplitudes as the bytes of run-time textures, and back.
+//
+// A texel keeps `dominant` lobes; slot s holds the s-th lobe of its mask, in the order of lobes (for RGB
+// three slots, red first). With 8 bits four slots make one RGBA texture; with 4 bits eight do, the first of
+// two in the low half of a byte. A code is stored with 128 (8 bits) or 8 (4 bits) added, so 0 means nothing
+// was stored; unused slots hold the code 0.
+#ifndef BRDFIT_BAKE_PACK_H_
+#define BRDFIT_BAKE_PACK_H_
+
+#include <cstddef>
+#include <cstdint>
+#include <span>
+#include <vector>
+
+namespace brdfit::bake {
+
+// How many of what an asset's textures hold.
+struct PackLayout {
+  int lobes = 8;
+  int channels = 1;  // of an amplitude: 3 for RGB
+  int bits = 8;      // 4 or 8
+  int dominant = 8;  // lobes kept per texel
+
+  int slots() const { return dominant * channels; }
+  int slots_per_texture() const { return bits == 4 ? 8 : 4; }
+  int textures() const { return (slots() + slots_per_texture() - 1) / slots_per_texture(); }
+  // Bytes per texel of the mask's picture: 1, 3 (up to 24 lobes; the third is 0 up to 16); 0 where all lobes
+  // are kept.
+  int mask_channels() const { return dominant == lobes ? 0 : lobes <= 8 ? 1 : 3; }
+};
+
+// Of any run of texels.
+struct PackedTexels {
+  std::vector<std::vector<std::uint8_t>> textures;  // [texture][texel * 4]
+  std::vector<std::uint8_t> mask;                   // [texel * mask_channels()]
+};
+
+// codes: [lobe][channel][texel]; masks: per texel, bit k for lobe k, as many bits as layout.dominant or
+// fewer. Throws std::invalid_argument where sizes disagree, a code is out of range or a mask has too many
+// bits.
+PackedTexels pack(const PackLayout& layout, std::span<const int> codes, std::span<const std::uint32_t> masks);
+
+// The inverse: codes as given to pack, 0 for lobes that were not kept. masks: filled in.
+std::vector<int> unpack(const PackLayout& layout, const PackedTexels& packed, std::size_t texels,
+                        std::vector<std::uint32_t>* masks = nullptr);
+
+}  // namespace brdfit::bake
+
+#endif  // BRDFIT_BAKE_PACK_H_

@@ -1,0 +1,35 @@
+// Lobes of Realis: spherical Gaussians over light directions that an asset's texels share.
+#ifndef BRDFIT_BRDF_REALIS_H_
+#define BRDFIT_BRDF_REALIS_H_
+
+#include <vector>
+
+#include "brdf/kernel/spherical_gaussian.h"
+#include "brdf/vec3.h"
+
+namespace brdfit {
+
+// One lobe: exp(sharpness (axis . direction - 1)), times a window that ends, with slope 0, at the cut-off.
+// axis: unit, in the frame of the light directions (model space). sharpness >= 0. cos_cut_off in [-1, 1).
+// Jimenez et al. 2023.
+struct Lobe {
+  Vec3 axis;
+  double sharpness = 1.0;
+  double cos_cut_off = -1.0;
+  friend bool operator==(const Lobe& a, const Lobe& b) {
+    return a.axis.x == b.axis.x && a.axis.y == b.axis.y && a.axis.z == b.axis.z &&
+           a.sharpness == b.sharpness && a.cos_cut_off == b.cos_cut_off;
+  }
+};
+
+using LobeSet = std::vector<Lobe>;
+
+// The lobe's value for a light in that direction (unit, towards the light), in [0, 1].
+inline double eval(const Lobe& lobe, const Vec3& direction) {
+  const double cos_axis = lobe.axis.x * direction.x + lobe.axis.y * direction.y + lobe.axis.z * direction.z;
+  return kernel::windowed_spherical_gaussian(cos_axis, lobe.sharpness, lobe.cos_cut_off);
+}
+
+}  // namespace brdfit
+
+#endif  // BRDFIT_BRDF_REALIS_H_
