@@ -19,8 +19,8 @@ constexpr int kStartsOfAll = 6;
 constexpr int kKickRoundsOfAll = 2;
 
 // The error may rise by this share of the threshold when groups are removed. Less than all of it: fits of few
-// samples overfit and blocks differ, so what a group is worth is seen to be less than it is, and on cells that
-// are new the set must still be within the threshold of everything.
+// samples overfit and blocks differ, so what a group is worth is seen to be less than it is, and on cells
+// that are new the set must still be within the threshold of everything.
 constexpr double kRemovalShare = 0.25;
 
 // A group without which the error is beyond the bound by more than this share is not tried again when others
