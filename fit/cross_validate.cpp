@@ -158,7 +158,7 @@ CrossValidation::FoldFit CrossValidation::fit_fold(const Request& request, std::
   const Model model = options_.start.model();
   const Parametrisation parameters = parametrisation(request.groups);
   const SampleSet& samples = folds_[fold].training;
-  const Problem wide(parameters, samples, targets_[fold].wide, options_.loss);
+  const Problem wide(parameters, samples, targets_[fold].wide, options_.loss, Precision::kSingle);
   const Problem narrow(parameters, samples, targets_[fold].narrow, options_.loss);
   const std::size_t count = static_cast<std::size_t>(request.fresh_starts) + request.origins.size();
   const std::vector<std::vector<double>> fresh =

@@ -61,6 +61,8 @@ class Descent {
       }
       damping.accept(quality);
       const bool is_flat = cost_ - cost <= options.function_tolerance * cost_;
+      const int left = options.max_iterations - solution.iterations - 1;
+      const bool is_hopeless = cost - left * (cost_ - cost) > options.goal;
       x_ = trial;
       cost_ = cost;
       gram_ = std::move(gram);
@@ -68,6 +70,7 @@ class Descent {
         solution.converged = true;
         break;
       }
+      if (is_hopeless) break;
     }
     solution.x = x_;
     solution.cost = cost_;

@@ -3,6 +3,7 @@
 #ifndef BRDFIT_FIT_DESCEND_H_
 #define BRDFIT_FIT_DESCEND_H_
 
+#include <limits>
 #include <vector>
 
 #include "fit/problem.h"
@@ -16,6 +17,9 @@ struct DescentOptions {
   double function_tolerance = 1e-5;
   // How much of the Gram matrix' diagonal is added to it at first.
   double damping = 1e-2;
+  // Stops as well when the cost would not get down to this in the iterations left if each brought as much as
+  // the last step. (Steps bring less and less.)
+  double goal = std::numeric_limits<double>::infinity();
 };
 
 // Steps from x inside the box. What presses against a bound stays there while the others move. `converged`

@@ -31,6 +31,7 @@ constexpr std::size_t kRefined = 2;  // starts that are refined on all samples
 
 // Candidates are compared after a brief descent; only the best is carried to its minimum.
 constexpr DescentOptions kBrief = {8, 1e-4, 1e-4};
+constexpr DescentOptions kNearby = {60, 1e-5, 1e-4};
 constexpr DescentOptions kThorough = {60, 1e-7, 1e-4};
 
 // A directional albedo above this is more than the quadrature's error above 1.
@@ -119,7 +120,7 @@ class Fitter {
         part_(part_to_explore(drawn, options), options.loss),
         all_(std::move(drawn.samples), options.loss),
         on_part_(parametrisation_, part_.samples, part_.targets, options.loss),
-        on_part_wide_(parametrisation_, part_.samples, part_.wide_targets, options.loss),
+        on_part_wide_(parametrisation_, part_.samples, part_.wide_targets, options.loss, Precision::kSingle),
         on_all_(parametrisation_, all_.samples, all_.targets, options.loss) {}
 
   FitResult run() {
@@ -180,18 +181,21 @@ class Fitter {
 
   // On all samples as they are now; the best goes to its minimum.
   void descend_to_best(std::vector<Decided>& refined) {
+    const Problem& rough = on_all_rough_.emplace(parametrisation_, all_.samples, all_.targets, options_.loss,
+                                                 Precision::kSingle);
     if (refined.size() > 1) {
       tbb::parallel_for(std::size_t{0}, refined.size(), [&](std::size_t k) {
         Candidate& candidate = refined[k].candidate;
-        candidate.solution = descend(on_all_, candidate.solution.x, candidate.box, kBrief);
+        candidate.solution = descend(rough, candidate.solution.x, candidate.box, kBrief);
       });
       for (const Decided& decided : refined) result_.evaluations += decided.candidate.solution.evaluations;
     }
     published_ =
         *std::ranges::min_element(refined, {}, [](const Decided& d) { return d.candidate.solution.cost; });
     Solution& solution = published_.candidate.solution;
-    solution = descend(on_all_, solution.x, published_.candidate.box, kThorough);
-    result_.evaluations += solution.evaluations;
+    const Solution nearby = descend(rough, solution.x, published_.candidate.box, kNearby);
+    solution = descend(on_all_, nearby.x, published_.candidate.box, kThorough);
+    result_.evaluations += nearby.evaluations + solution.evaluations;
   }
 
   // Doubles the samples until that changes little; each size goes on from the minimum of the one before. The
@@ -230,7 +234,8 @@ class Fitter {
 
   void look_at_evidence() {
     if (!published_.note.empty()) result_.notes.push_back(published_.note);
-    Settled settled = settle_unidentifiable(on_all_, published_.candidate.solution, published_.candidate.box);
+    Settled settled = settle_unidentifiable(on_all_, *on_all_rough_, published_.candidate.solution,
+                                            published_.candidate.box);
     mark_undecided(settled);
     result_.evaluations += settled.evaluations;
     const Solution& solution = settled.solution;
@@ -285,6 +290,7 @@ class Fitter {
   Problem on_part_;
   Problem on_part_wide_;
   Problem on_all_;
+  std::optional<Problem> on_all_rough_;  // the same in single precision, of the samples as they are
   std::vector<Candidate> candidates_;
   Decided published_;
   FitResult result_;

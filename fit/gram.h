@@ -9,6 +9,10 @@
 
 namespace brdfit::fit {
 
+// The columns of a job in single precision: those of its geometry in their order, sqrt_weight,
+// clipped_share, the targets and the clipped targets.
+inline constexpr std::size_t kSingleColumns = 19;
+
 // The side of a Gram matrix: the coefficients of a channel (at most 14), then the residual, and what is left
 // is 0.
 inline constexpr int kGramSide = 16;
@@ -38,6 +42,11 @@ struct GramJob {
   double clipped_width = 0.0;
   const double* clipped_share = nullptr;
   const double* clipped_target[3] = {};
+  // Where not null, sums are made in single precision, from kSingleColumns columns that begin single_stride
+  // apart. For the log-ratio with both widths and without `curvature`, of materials that need a lobe once per
+  // sample; other jobs do not look at it.
+  const float* single = nullptr;
+  std::size_t single_stride = 0;
   // Robust residuals are weighted by the cost's second derivative, (1 + (r/d)^2)^(-3/2), in products of
   // derivatives: how fast the gradient changes, which their own weight overstates.
   bool curvature = false;

@@ -43,6 +43,76 @@ struct Counted {
   Lanes<S> cost;
 };
 
+// The columns of a job in one precision, in the order of kSingleColumns.
+template <class S>
+struct Columns;
+
+template <>
+struct Columns<double> {
+  const double* at[fit::kSingleColumns];
+
+  explicit Columns(const GramJob& job)
+      : at{job.geometry.cos_i,
+           job.geometry.cos_o,
+           job.geometry.sin_h,
+           job.geometry.cos_h,
+           job.geometry.cos_d,
+           job.geometry.one_minus_cos_h,
+           job.geometry.one_minus_cos_d,
+           job.geometry.log_cos_h,
+           job.geometry.log_cos_d,
+           job.geometry.log_one_minus_cos_h,
+           job.geometry.log_one_minus_cos_d,
+           job.sqrt_weight,
+           job.clipped_share,
+           job.target[0],
+           job.target[1],
+           job.target[2],
+           job.clipped_target[0],
+           job.clipped_target[1],
+           job.clipped_target[2]} {}
+};
+
+template <>
+struct Columns<float> {
+  const float* at[fit::kSingleColumns];
+
+  explicit Columns(const GramJob& job) {
+    for (std::size_t k = 0; k < fit::kSingleColumns; ++k) at[k] = job.single + k * job.single_stride;
+  }
+};
+
+// One vector of every column.
+template <class S>
+struct Reader {
+  using V = Lanes<S>;
+  Columns<S> columns;
+
+  explicit HWY_INLINE Reader(const GramJob& job) : columns(job) {}
+
+  HWY_INLINE V load(int column, std::size_t at) const { return V::load(columns.at[column] + at); }
+  HWY_INLINE V cos_i(std::size_t at) const { return load(0, at); }
+  HWY_INLINE V weight(std::size_t at) const { return load(11, at); }
+  HWY_INLINE V clipped_share(std::size_t at) const { return load(12, at); }
+  HWY_INLINE V target(int c, std::size_t at) const { return load(13 + c, at); }
+  HWY_INLINE V clipped_target(int c, std::size_t at) const { return load(16 + c, at); }
+  HWY_INLINE kernel::Geometry<V> geometry(std::size_t at) const {
+    kernel::Geometry<V> g;
+    g.cos_i = load(0, at);
+    g.cos_o = load(1, at);
+    g.h_x = load(2, at);
+    g.cos_h = load(3, at);
+    g.cos_d = load(4, at);
+    g.one_minus_cos_h = load(5, at);
+    g.one_minus_cos_d = load(6, at);
+    g.h_y = g.wi_x = g.wi_y = g.wo_x = g.wo_y = V(0.0);
+    return g;
+  }
+  HWY_INLINE kernel::GeometryLogs<V> logs(std::size_t at) const {
+    return {load(7, at), load(8, at), load(9, at), load(10, at)};
+  }
+};
+
 // The same pair with the directions exchanged. Only their cosines differ in isotropic columns.
 template <class V>
 HWY_INLINE kernel::Geometry<V> swapped(const kernel::Geometry<V>& g) {
@@ -105,12 +175,14 @@ struct RobustLogRatio {
   V width_squared;
   V clipped_inverse_squared;
   V clipped_squared;
+  bool curvature;
 
   explicit HWY_INLINE RobustLogRatio(const GramJob& job)
       : inverse_width_squared(1.0 / (job.robust_width * job.robust_width)),
         width_squared(job.robust_width * job.robust_width),
         clipped_inverse_squared(1.0 / (job.clipped_width * job.clipped_width)),
-        clipped_squared(job.clipped_width * job.clipped_width) {}
+        clipped_squared(job.clipped_width * job.clipped_width),
+        curvature(job.curvature) {}
 
   HWY_INLINE Counted<S> count(V y, V, V inverse_cos_i, V target, V clipped_target, V share) const {
     const V one(1.0);
@@ -134,9 +206,15 @@ struct RobustLogRatio {
     const V cost = inverse_aboves * (width_squared * t * above_v + share * (clipped_squared * v * above_t));
     const V rest = inverse * aboves;  // 1 / (shifted roots)
     const V slope = rest * roots;
-    const V weighted = slope * (rest * shifted * root_v);
-    const V clipped_factor = share * clipped_slope * (rest * shifted * root_t);
-    return {weighted * slope + clipped_factor * clipped_slope, weighted * r + clipped_factor * u, cost};
+    const V weight = rest * shifted * root_v;
+    const V clipped_weight = rest * shifted * root_t;
+    const V weighted = slope * weight;
+    const V clipped_factor = share * clipped_slope * clipped_weight;
+    const V gradient = weighted * r + clipped_factor * u;
+    if (!curvature) return {weighted * slope + clipped_factor * clipped_slope, gradient, cost};
+    const V squares =
+        weighted * slope * weight * weight + clipped_factor * clipped_slope * clipped_weight * clipped_weight;
+    return {kernel::at_least(squares, V(1e-30)), gradient, cost};
   }
 };
 
@@ -171,15 +249,16 @@ struct GramOf {
   static HWY_FLATTEN void run(const GramJob& job, Gram& gram) {
     const Model model(job.coefficients);
     const LossOf<S> loss(job);
+    const Reader<S> reader(job);
     GramOf of;
     for (auto& channel : of.products) channel.clear();
     of.total = V(0.0);
     for (std::size_t first = 0; first < job.count; first += kRowLength<S>) {
       const std::size_t length = job.count - first < kRowLength<S> ? job.count - first : kRowLength<S>;
-      of.share(model, job, first, length);
+      of.share(model, reader, first, length);
       for (int c = 0; c < 3; ++c) {
-        of.count(model, loss, job, c, first, length);
-        of.fill(model, job, c, first, length);
+        of.count(model, loss, reader, c, first, length);
+        of.fill(model, reader, c, first, length);
         add_products<S, n + 1>(of.rows, length, of.products[c]);
       }
     }
@@ -193,10 +272,10 @@ struct GramOf {
     gram.cost = static_cast<double>(sum(of.total));
   }
 
-  HWY_INLINE void share(const Model& model, const GramJob& job, std::size_t first, std::size_t length) {
+  HWY_INLINE void share(const Model& model, const Reader<S>& reader, std::size_t first, std::size_t length) {
     for (std::size_t at = 0; at < length; at += V::size) {
-      const kernel::Geometry<V> g = load_geometry(job.geometry, first + at);
-      const kernel::GeometryLogs<V> logs = load_logs(job.geometry, first + at);
+      const kernel::Geometry<V> g = reader.geometry(first + at);
+      const kernel::GeometryLogs<V> logs = reader.logs(first + at);
       Shared& to = shared[at / V::size];
       to.terms = model.terms(g, logs);
       to.inverse_cos_i = V(1.0) / g.cos_i;
@@ -208,7 +287,7 @@ struct GramOf {
   }
 
   // Roots and quotients of a sample wait for each other: in short loops those of neighbours overlap.
-  HWY_INLINE void count(const Model& model, const LossOf<S>& loss, const GramJob& job, int c,
+  HWY_INLINE void count(const Model& model, const LossOf<S>& loss, const Reader<S>& reader, int c,
                         std::size_t first, std::size_t length) {
     for (std::size_t k = 0; k < length / V::size; ++k) {
       y[k] = model.y(c, shared[k].terms);
@@ -217,9 +296,8 @@ struct GramOf {
     for (std::size_t at = 0; at < length; at += V::size) {
       const std::size_t k = at / V::size;
       counted[k] =
-          loss.count(y[k], V::load(job.geometry.cos_i + first + at), shared[k].inverse_cos_i,
-                     V::load(job.target[c] + first + at), V::load(job.clipped_target[c] + first + at),
-                     V::load(job.clipped_share + first + at));
+          loss.count(y[k], reader.cos_i(first + at), shared[k].inverse_cos_i, reader.target(c, first + at),
+                     reader.clipped_target(c, first + at), reader.clipped_share(first + at));
     }
     for (std::size_t k = 0; k < length / V::size; ++k) {
       const V slope = sqrt(counted[k].slope);
@@ -227,11 +305,12 @@ struct GramOf {
     }
   }
 
-  HWY_INLINE void fill(const Model& model, const GramJob& job, int c, std::size_t first, std::size_t length) {
+  HWY_INLINE void fill(const Model& model, const Reader<S>& reader, int c, std::size_t first,
+                       std::size_t length) {
     for (std::size_t at = 0; at < length; at += V::size) {
       const Shared& s = shared[at / V::size];
       const Counted<S>& value = counted[at / V::size];
-      const V weight = V::load(job.sqrt_weight + first + at);
+      const V weight = reader.weight(first + at);
       const V slope = weight * value.slope;
       V dy[n];
       if constexpr (kMean) {
@@ -251,8 +330,12 @@ struct GramOf {
 
 template <template <class> class ModelRows, bool kMean>
 void gram_of(const GramJob& job, Gram& gram) {
-  if (!job.curvature && job.loss == BRDFIT_LOSS_LOG_RATIO && job.robust_width > 0.0 &&
-      job.clipped_width > 0.0) {
+  if (job.loss == BRDFIT_LOSS_LOG_RATIO && job.robust_width > 0.0 && job.clipped_width > 0.0) {
+    // The mean of whole terms is too rare to be compiled once more.
+    if constexpr (!kMean) {
+      if (job.single != nullptr && !job.curvature)
+        return GramOf<float, ModelRows, RobustLogRatio, kMean>::run(job, gram);
+    }
     return GramOf<double, ModelRows, RobustLogRatio, kMean>::run(job, gram);
   }
   GramOf<double, ModelRows, AnyLoss, kMean>::run(job, gram);

@@ -113,6 +113,16 @@ void fill(simd::Coefficients& to, Model model, const std::array<Coefficients, 3>
   }
 }
 
+std::array<Coefficients, 3> coefficients_at(const Parametrisation& parametrisation,
+                                            std::span<const double> x) {
+  return differentiate(parametrisation.start, parametrisation.product(x));
+}
+
+GramJob with(GramJob job, const std::array<Coefficients, 3>& channels) {
+  fill(job.coefficients, static_cast<Model>(job.coefficients.model), channels);
+  return job;
+}
+
 // Long enough for a thread to be worth its start.
 constexpr std::size_t kChunk = 64 * simd::kBlock;
 
@@ -134,6 +144,7 @@ GramJob chunk_of(const GramJob& job, std::size_t k, std::size_t size = kChunk) {
         &chunk.clipped_target[2]}) {
     *column += first;
   }
+  if (chunk.single != nullptr) chunk.single += first;
   return chunk;
 }
 
@@ -168,9 +179,8 @@ std::vector<Link> links(const Parametrisation& parametrisation, const Eigen::Mat
 
 using ChannelLinks = std::array<std::vector<Link>, 3>;
 
-ChannelLinks channel_links(const Parametrisation& parametrisation, std::span<const double> x) {
-  const std::array<Coefficients, 3> channels =
-      differentiate(parametrisation.start, parametrisation.product(x));
+ChannelLinks channel_links(const Parametrisation& parametrisation,
+                           const std::array<Coefficients, 3>& channels) {
   ChannelLinks result;
   for (std::size_t c = 0; c < 3; ++c) result[c] = links(parametrisation, channels[c].jacobian);
   return result;
@@ -181,10 +191,15 @@ Eigen::MatrixXd chained(const Gram& sums, const ChannelLinks& chain, std::size_t
   const auto side = static_cast<Eigen::Index>(parameters) + 1;
   Eigen::MatrixXd total = Eigen::MatrixXd::Zero(side, side);
   for (std::size_t c = 0; c < 3; ++c) {
-    for (const Link& a : chain[c]) {
-      for (const Link& b : chain[c]) {
+    const std::vector<Link>& all = chain[c];
+    for (std::size_t i = 0; i < all.size(); ++i) {
+      const Link& a = all[i];
+      for (std::size_t j = 0; j <= i; ++j) {
+        const Link& b = all[j];
         const auto [row, column] = std::minmax(a.coefficient, b.coefficient);
-        total(a.number, b.number) += a.slope * b.slope * sums.channel[c][row * kGramSide + column];
+        const double product = a.slope * b.slope * sums.channel[c][row * kGramSide + column];
+        total(a.number, b.number) += product;
+        if (i != j) total(b.number, a.number) += product;
       }
     }
   }
@@ -216,6 +231,20 @@ Targets make_targets(const SampleSet& samples, Loss loss) {
   return targets;
 }
 
+std::vector<float> single_columns(const GramJob& job) {
+  std::vector<float> result;
+  result.reserve(kSingleColumns * job.count);
+  for (const double* column :
+       {job.geometry.cos_i, job.geometry.cos_o, job.geometry.sin_h, job.geometry.cos_h, job.geometry.cos_d,
+        job.geometry.one_minus_cos_h, job.geometry.one_minus_cos_d, job.geometry.log_cos_h,
+        job.geometry.log_cos_d, job.geometry.log_one_minus_cos_h, job.geometry.log_one_minus_cos_d,
+        job.sqrt_weight, job.clipped_share, job.target[0], job.target[1], job.target[2],
+        job.clipped_target[0], job.clipped_target[1], job.clipped_target[2]}) {
+    for (std::size_t k = 0; k < job.count; ++k) result.push_back(static_cast<float>(column[k]));
+  }
+  return result;
+}
+
 GramFunction gram_function(simd::Isa isa) {
   using namespace simd;
   return BRDFIT_PICK(isa, accumulate_gram);
@@ -231,16 +260,19 @@ Eigen::MatrixXd coefficient_jacobian(const Material& options, std::span<const do
 }
 
 Problem::Problem(const Parametrisation& parametrisation, const SampleSet& samples, const Targets& targets,
-                 Loss loss)
+                 Loss loss, Precision precision)
     : parametrisation_(parametrisation),
       samples_(samples),
       targets_(targets),
       loss_(loss),
       has_two_orders_(samples.has_two_orders()),
       gram_function_(gram_function(simd::best_isa())),
-      cost_function_(cost_function(simd::best_isa())) {}
+      cost_function_(cost_function(simd::best_isa())) {
+  const bool has_code = loss == Loss::kLogRatio && targets.robust_width > 0.0 && targets.clipped_width > 0.0;
+  if (precision == Precision::kSingle && has_code) single_ = single_columns(job());
+}
 
-GramJob Problem::job_at(std::span<const double> x) const {
+GramJob Problem::job() const {
   const Material& material = parametrisation_.start;
   GramJob job;
   job.coefficients.model = static_cast<int>(material.model());
@@ -249,7 +281,6 @@ GramJob Problem::job_at(std::span<const double> x) const {
   job.coefficients.diffuse = static_cast<int>(material.options().diffuse);
   // Data are isotropic: the stretched lobe would only cost time.
   job.coefficients.effects = static_cast<int>(material.effects().without(Effect::kAnisotropic).bits());
-  fill(job.coefficients, material.model(), differentiate(material, parametrisation_.product(x)));
   job.geometry = samples_.geometry();
   job.sqrt_weight = targets_.sqrt_weight.data();
   for (std::size_t c = 0; c < 3; ++c) {
@@ -262,12 +293,16 @@ GramJob Problem::job_at(std::span<const double> x) const {
   job.robust_width = targets_.robust_width;
   job.clipped_width = targets_.clipped_width;
   job.clipped_share = targets_.clipped_share.data();
+  if (!single_.empty()) {
+    job.single = single_.data();
+    job.single_stride = job.count;
+  }
   return job;
 }
 
 // Chunks of a fixed size are summed apart and added in order, so that results do not depend on threads.
 double Problem::cost(std::span<const double> x) const {
-  const GramJob job = job_at(x);
+  const GramJob job = with(this->job(), coefficients_at(parametrisation_, x));
   std::vector<double> costs(chunk_count(job));
   tbb::parallel_for(std::size_t{0}, costs.size(),
                     [&](std::size_t k) { costs[k] = cost_function_(chunk_of(job, k)); });
@@ -283,30 +318,33 @@ Gram Problem::sum_of(const GramJob& job) const {
 }
 
 Eigen::MatrixXd Problem::gram(std::span<const double> x, double* cost) const {
-  const Gram sums = sum_of(job_at(x));
+  const std::array<Coefficients, 3> channels = coefficients_at(parametrisation_, x);
+  const Gram sums = sum_of(with(job(), channels));
   if (cost != nullptr) *cost = sums.cost;
-  return chained(sums, channel_links(parametrisation_, x), parametrisation_.size());
+  return chained(sums, channel_links(parametrisation_, channels), parametrisation_.size());
 }
 
 Eigen::MatrixXd Problem::curvature(std::span<const double> x) const {
-  GramJob job = job_at(x);
-  job.curvature = true;
-  return chained(sum_of(job), channel_links(parametrisation_, x), parametrisation_.size());
+  const std::array<Coefficients, 3> channels = coefficients_at(parametrisation_, x);
+  GramJob curved = with(job(), channels);
+  curved.curvature = true;
+  return chained(sum_of(curved), channel_links(parametrisation_, channels), parametrisation_.size());
 }
 
 std::vector<Eigen::MatrixXd> Problem::curvature_by_group(std::span<const double> x,
                                                          std::size_t most_groups) const {
   // A multiple of every vector's length.
   constexpr std::size_t kLeast = 8;
-  GramJob job = job_at(x);
-  job.curvature = true;
-  job.count = (samples_.size() + kLeast - 1) / kLeast * kLeast;
-  const std::size_t size = (job.count / kLeast + most_groups - 1) / most_groups * kLeast;
-  const ChannelLinks chain = channel_links(parametrisation_, x);
-  std::vector<Eigen::MatrixXd> groups((job.count + size - 1) / size);
+  const std::array<Coefficients, 3> channels = coefficients_at(parametrisation_, x);
+  GramJob curved = with(job(), channels);
+  curved.curvature = true;
+  curved.count = (samples_.size() + kLeast - 1) / kLeast * kLeast;
+  const std::size_t size = (curved.count / kLeast + most_groups - 1) / most_groups * kLeast;
+  const ChannelLinks chain = channel_links(parametrisation_, channels);
+  std::vector<Eigen::MatrixXd> groups((curved.count + size - 1) / size);
   tbb::parallel_for(std::size_t{0}, groups.size(), [&](std::size_t k) {
     Gram sums;
-    gram_function_(chunk_of(job, k, size), sums);
+    gram_function_(chunk_of(curved, k, size), sums);
     groups[k] = chained(sums, chain, parametrisation_.size());
   });
   return groups;

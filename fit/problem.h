@@ -31,17 +31,22 @@ struct Targets {
 };
 Targets make_targets(const SampleSet& samples, Loss loss);
 
+// In which numbers Gram matrices are summed. Single precision is for a search, which does not see the
+// difference: twice the lanes, products good to about 1e-5 of their size. Losses for which there is no such
+// code are summed in double precision.
+enum class Precision { kDouble, kSingle };
+
 // Cost and derivatives over one set of samples. Holds references to all of its arguments.
 class Problem {
  public:
-  Problem(const Parametrisation& parametrisation, const SampleSet& samples, const Targets& targets,
-          Loss loss);
+  Problem(const Parametrisation& parametrisation, const SampleSet& samples, const Targets& targets, Loss loss,
+          Precision precision = Precision::kDouble);
 
   std::size_t parameter_count() const { return parametrisation_.size(); }
   const Parametrisation& parametrisation() const { return parametrisation_; }
 
   // The cost at x: half of the weighted sum of squared residuals, large ones counted less where the loss says
-  // so.
+  // so. In double precision always.
   double cost(std::span<const double> x) const;
 
   // [J r]^T [J r] at x, of side parameter_count() + 1, the residual last; *cost (when not null) is the cost
@@ -57,7 +62,7 @@ class Problem {
   std::vector<Eigen::MatrixXd> curvature_by_group(std::span<const double> x, std::size_t most_groups) const;
 
  private:
-  GramJob job_at(std::span<const double> x) const;
+  GramJob job() const;  // without values of coefficients
   Gram sum_of(const GramJob& job) const;
 
   const Parametrisation& parametrisation_;
@@ -65,6 +70,7 @@ class Problem {
   const Targets& targets_;
   Loss loss_;
   bool has_two_orders_;
+  std::vector<float> single_;  // as GramJob::single; empty in double precision
   GramFunction gram_function_;
   CostFunction cost_function_;
 };
@@ -72,6 +78,9 @@ class Problem {
 // The vector code behind a Problem, for tests and benchmarks of it.
 GramFunction gram_function(simd::Isa isa);
 CostFunction cost_function(simd::Isa isa);
+
+// The columns of a job as GramJob::single, job.count apart.
+std::vector<float> single_columns(const GramJob& job);
 
 // d(coefficients of channel c)/dq, rows in the order of fit/gram.h, columns in that of the product form.
 Eigen::MatrixXd coefficient_jacobian(const Material& options, std::span<const double> q, int channel);

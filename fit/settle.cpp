@@ -18,8 +18,9 @@ constexpr int kMostFailures = 3;
 
 class Settling {
  public:
-  Settling(const Problem& problem, const Solution& solution, const Box& box)
+  Settling(const Problem& problem, const Problem& rough, const Solution& solution, const Box& box)
       : problem_(problem),
+        rough_(rough),
         parametrisation_(problem.parametrisation()),
         defaults_(parametrisation_.from_material(Material(parametrisation_.start.model()))),
         limit_(solution.cost * (1.0 + kSettlingShare)) {
@@ -47,10 +48,14 @@ class Settling {
   // What is settled no longer ties others.
   void look() {
     const std::vector<double>& x = settled_.solution.x;
-    const Eigen::MatrixXd gram = problem_.curvature(x);
-    ++settled_.evaluations;
-    settled_.identifiability = identify(parametrisation_, x, gram, settled_.at_default);
-    add_hidden_ties(parametrisation_, x, settled_.box, gram, settled_.at_default, settled_.identifiability);
+    if (x != curvature_at_) {
+      curvature_ = problem_.curvature(x);
+      curvature_at_ = x;
+      ++settled_.evaluations;
+    }
+    settled_.identifiability = identify(parametrisation_, x, curvature_, settled_.at_default);
+    add_hidden_ties(parametrisation_, x, settled_.box, curvature_, settled_.at_default,
+                    settled_.identifiability);
   }
 
   std::vector<std::string> public_order() const {
@@ -88,8 +93,11 @@ class Settling {
     trial.cost = problem_.cost(x);
     ++settled_.evaluations;
     if (!(trial.cost <= limit_) && failures_ < kMostFailures) {
-      trial = descend(problem_, x, box, kSettling);
-      settled_.evaluations += trial.evaluations;
+      DescentOptions descent = kSettling;
+      descent.goal = limit_;
+      trial = descend(rough_, x, box, descent);
+      trial.cost = problem_.cost(trial.x);
+      settled_.evaluations += trial.evaluations + 1;
     }
     if (!(trial.cost <= limit_)) {
       ++failures_;
@@ -136,18 +144,26 @@ class Settling {
   }
 
   const Problem& problem_;
+  const Problem& rough_;
   const Parametrisation& parametrisation_;
   const std::vector<double> defaults_;
   const double limit_;
   Settled settled_;
+  Eigen::MatrixXd curvature_;
+  std::vector<double> curvature_at_;
   Identifiability first_;
   int failures_ = 0;
 };
 
 }  // namespace
 
+Settled settle_unidentifiable(const Problem& problem, const Problem& rough, const Solution& solution,
+                              const Box& box) {
+  return Settling(problem, rough, solution, box).run();
+}
+
 Settled settle_unidentifiable(const Problem& problem, const Solution& solution, const Box& box) {
-  return Settling(problem, solution, box).run();
+  return settle_unidentifiable(problem, problem, solution, box);
 }
 
 }  // namespace brdfit::fit

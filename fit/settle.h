@@ -30,7 +30,10 @@ struct Settled {
 // defaults one after the other, the others solved anew where need be, as long as the cost does not rise by
 // more than kSettlingShare of what it was; where it does, they keep their value. Metallic goes first, then
 // the later of the model's table before the earlier, as they are the more special; a base colour stays where
-// it is.
+// it is. rough: the same problem, cheaper (in single precision), in which others are solved anew to see what
+// a default costs; what is kept is judged and solved in `problem`.
+Settled settle_unidentifiable(const Problem& problem, const Problem& rough, const Solution& solution,
+                              const Box& box);
 Settled settle_unidentifiable(const Problem& problem, const Solution& solution, const Box& box);
 
 }  // namespace brdfit::fit

@@ -70,21 +70,35 @@ Eigen::VectorXd scales_of(const Parametrisation& parametrisation, std::span<cons
   return scale;
 }
 
-// How the solution moves when a group is left out: the others' Newton step. In scaled units.
+// How the solution moves when a group is left out: the others' Newton step m, in the numbers' own units. With
+// A the inverse of all products and G and g a group's products and gradient, m = A (g + G m). Most groups say
+// little, and repeating that finds m at once; where one does not, the equations are solved.
 Eigen::VectorXd move_without(const Eigen::MatrixXd& group, const Eigen::MatrixXd& inverse,
-                             const Eigen::VectorXd& scale, const std::vector<Eigen::Index>& inside) {
-  const Eigen::MatrixXd products = scale.asDiagonal() * group(inside, inside) * scale.asDiagonal();
-  const Eigen::VectorXd gradient = scale.cwiseProduct(group.col(group.cols() - 1)(inside));
+                             const std::vector<Eigen::Index>& inside) {
+  constexpr int kMostRepeats = 12;
+  constexpr double kTolerance = 1e-9;
+  const Eigen::MatrixXd products = group(inside, inside);
+  const Eigen::VectorXd alone = inverse * group.col(group.cols() - 1)(inside);
+  Eigen::VectorXd move = alone;
+  Eigen::VectorXd next(alone.size());
+  for (int repeat = 0; repeat < kMostRepeats; ++repeat) {
+    next.noalias() = inverse * (products * move);
+    next += alone;
+    // Number by number, as they differ in size.
+    const bool is_settled = ((next - move).array().abs() <= kTolerance * next.array().abs()).all();
+    move.swap(next);
+    if (is_settled) return move;
+  }
   const Eigen::MatrixXd left =
       Eigen::MatrixXd::Identity(products.rows(), products.cols()) - inverse * products;
-  return left.partialPivLu().solve(inverse * gradient);
+  return left.partialPivLu().solve(alone);
 }
 
 Eigen::MatrixXd jackknife(const std::vector<Eigen::MatrixXd>& groups, const Eigen::MatrixXd& inverse,
-                          const Eigen::VectorXd& scale, const std::vector<Eigen::Index>& inside) {
-  Eigen::MatrixXd moves(scale.size(), static_cast<Eigen::Index>(groups.size()));
+                          const std::vector<Eigen::Index>& inside) {
+  Eigen::MatrixXd moves(inverse.rows(), static_cast<Eigen::Index>(groups.size()));
   tbb::parallel_for(std::size_t{0}, groups.size(), [&](std::size_t k) {
-    moves.col(static_cast<Eigen::Index>(k)) = move_without(groups[k], inverse, scale, inside);
+    moves.col(static_cast<Eigen::Index>(k)) = move_without(groups[k], inverse, inside);
   });
   const auto count = static_cast<double>(groups.size());
   return (count - 1.0) / count * moves * moves.transpose();
@@ -192,9 +206,9 @@ Uncertainty estimate_uncertainty(const Problem& problem, std::span<const double>
   Eigen::MatrixXd total = groups.front();
   for (std::size_t k = 1; k < groups.size(); ++k) total += groups[k];
   const Eigen::VectorXd scale = scales_of(problem.parametrisation(), x, inside);
-  const Eigen::MatrixXd inverse = inverse_of_gram(total(inside, inside), scale);
-  const Eigen::MatrixXd scaled = jackknife(groups, inverse, scale, inside);
-  result.covariance(inside, inside) = scale.asDiagonal() * scaled * scale.asDiagonal();
+  const Eigen::MatrixXd inverse =
+      scale.asDiagonal() * inverse_of_gram(total(inside, inside), scale) * scale.asDiagonal();
+  result.covariance(inside, inside) = jackknife(groups, inverse, inside);
   add_drift(problem.parametrisation(), x, identifiability, inside, result.covariance);
   for (const Eigen::Index k : inside) {
     const auto at = static_cast<std::size_t>(k);

@@ -4,6 +4,9 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
+#include <numbers>
+
+#include "brdf/models.h"
 
 namespace brdfit {
 namespace {
@@ -34,6 +37,32 @@ TEST(DirectionalAlbedo, OfAWhiteSmoothMetalIsOneMinusWhatMaskingLoses) {
     EXPECT_LT(albedo, 1.005) << roughness;
     EXPECT_GT(albedo, 0.97) << roughness;
   }
+}
+
+// The quadrature takes one half of the hemisphere for both.
+TEST(DirectionalAlbedo, OfAStretchedLobeIsThatOfAPlainSum) {
+  Material material(Model::kBurley);
+  material.set_effects(effects_of(Model::kBurley));
+  material.set("base_color", Rgb{0.2, 0.5, 0.8});
+  material.set("roughness", 0.5);
+  material.set("anisotropic", 0.7);
+  material.set("sheen", 0.5);
+  const double theta_o = 0.6;
+  const Vec3 wo = {std::sin(theta_o), 0.0, std::cos(theta_o)};
+  constexpr int kSteps = 400;
+  Rgb expected = {};
+  for (int i = 0; i < kSteps; ++i) {
+    const double cosine = (i + 0.5) / kSteps;
+    const double sine = std::sqrt(1.0 - cosine * cosine);
+    for (int j = 0; j < kSteps; ++j) {
+      const double phi = (j + 0.5) / kSteps * 2.0 * std::numbers::pi;
+      const Rgb f_cos = eval_cos(material, {sine * std::cos(phi), sine * std::sin(phi), cosine}, wo);
+      for (std::size_t c = 0; c < 3; ++c)
+        expected[c] += f_cos[c] * 2.0 * std::numbers::pi / (kSteps * kSteps);
+    }
+  }
+  const Rgb albedo = directional_albedo(material, theta_o);
+  for (std::size_t c = 0; c < 3; ++c) EXPECT_NEAR(albedo[c], expected[c], 0.01 * expected[c]);
 }
 
 TEST(DirectionalAlbedo, ExposesAMaterialThatGivesBackMoreThanItGets) {

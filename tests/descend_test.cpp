@@ -49,6 +49,25 @@ TEST(Descend, NeverRaisesTheCostAndStaysInItsBox) {
   }
 }
 
+TEST(Descend, GivesUpAGoalThatIsOutOfReachAndGoesOnTowardsOneThatIsNot) {
+  const OwnedProblem owned = foreign_problem(Model::kCallisto);
+  const Box box = full_box(owned.parametrisation);
+  int evaluations = 0;
+  int given_up = 0;
+  for (const std::vector<double>& x : make_starts(owned.parametrisation, owned.samples, 12, 1)) {
+    DescentOptions options = {30, 1e-9, 1e-4};
+    const Solution without = descend(owned.problem, x, box, options);
+    options.goal = owned.problem.cost(x);  // met by whatever goes down
+    EXPECT_EQ(descend(owned.problem, x, box, options).x, without.x);
+    options.goal = 0.5 * without.cost;
+    const Solution hopeless = descend(owned.problem, x, box, options);
+    EXPECT_GE(hopeless.cost, without.cost);
+    evaluations += without.evaluations;
+    given_up += hopeless.evaluations;
+  }
+  EXPECT_LT(given_up, evaluations);
+}
+
 TEST(Descend, HoldsWhatMayNotMove) {
   const OwnedProblem owned = foreign_problem(Model::kCallisto);
   Box box = full_box(owned.parametrisation);

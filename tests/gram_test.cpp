@@ -202,16 +202,30 @@ Eigen::MatrixXd chained_gram(const Material& material, const Gram& sums) {
 }
 
 // Entries relative to what rows and columns are made of.
-void expect_same_gram(const Eigen::MatrixXd& actual, const Eigen::MatrixXd& expected, double cost) {
+void expect_same_gram(const Eigen::MatrixXd& actual, const Eigen::MatrixXd& expected, double cost,
+                      double tolerance = 1e-10) {
   const Eigen::Index n = expected.rows() - 1;
   for (Eigen::Index i = 0; i < n; ++i) {
     const double size_i = std::sqrt(expected(i, i));
     for (Eigen::Index j = 0; j < n; ++j) {
-      ASSERT_NEAR(actual(i, j), expected(i, j), 1e-10 * size_i * std::sqrt(expected(j, j)) + 1e-300)
+      ASSERT_NEAR(actual(i, j), expected(i, j), tolerance * size_i * std::sqrt(expected(j, j)) + 1e-300)
           << i << ", " << j;
     }
-    ASSERT_NEAR(actual(i, n), expected(i, n), 1e-10 * size_i * std::sqrt(2 * cost) + 1e-300) << i;
+    ASSERT_NEAR(actual(i, n), expected(i, n), tolerance * size_i * std::sqrt(2 * cost) + 1e-300) << i;
   }
+}
+
+// Float sums of one material; where there is no code for them they are those in double precision.
+void expect_single_sums(const Material& material, const GramJob& job, const Eigen::MatrixXd& expected,
+                        double cost, simd::Isa isa) {
+  const std::vector<float> columns = single_columns(job);
+  GramJob single = job;
+  single.single = columns.data();
+  single.single_stride = job.count;
+  Gram gram;
+  gram_function(isa)(single, gram);
+  ASSERT_NEAR(gram.cost, cost, 1e-5 * cost);
+  expect_same_gram(chained_gram(material, gram), expected, cost, 1e-4);
 }
 
 // Everything that is claimed of one material, for all losses and instruction sets.
@@ -243,6 +257,7 @@ void expect_sums(const Material& material, Orders orders, Random& random) {
       ASSERT_NEAR(gram.cost, cost, 1e-11 * cost);
       ASSERT_NEAR(cost_function(isa)(job), cost, 1e-11 * cost);
       expect_same_gram(chained_gram(material, gram), expected, cost);
+      expect_single_sums(material, job, expected, cost, isa);
       gram_function(isa)(curved, gram);
       expect_same_gram(chained_gram(material, gram), expected_curvature, cost);
       if (testing::Test::HasFatalFailure()) return;
@@ -306,9 +321,41 @@ TEST(GramSums, AreFiniteAtTheEndsOfTheRanges) {
           Gram gram;
           gram_function(isa)(job, gram);
           EXPECT_NEAR(gram.cost, cost, 1e-10 * cost) << name_of(model) << ", " << name_of(loss);
-          for (int c = 0; c < 3; ++c) EXPECT_TRUE(chained_gram(material, gram).allFinite());
+          EXPECT_TRUE(chained_gram(material, gram).allFinite());
+          const std::vector<float> columns = single_columns(job);
+          GramJob single = job;
+          single.single = columns.data();
+          single.single_stride = job.count;
+          gram_function(isa)(single, gram);
+          EXPECT_NEAR(gram.cost, cost, 1e-5 * cost) << name_of(model) << ", " << name_of(loss);
+          EXPECT_TRUE(chained_gram(material, gram).allFinite());
         }
       }
+    }
+  }
+}
+
+// A problem in single precision is the same problem, and its cost alone is exact.
+TEST(GramSums, InSinglePrecisionAreThoseOfTheSameProblem) {
+  Random random(74);
+  for (const Model model : all_models()) {
+    const Material material = testing_support::interior_material(model, isotropic_subset(model, 31), random);
+    // More than a chunk, and not a whole number of them.
+    const Observed observed = observe(material, 5000, random);
+    const Parametrisation parametrisation =
+        make_parametrisation(Material(model), {Tier::kFull, isotropic_subset(model, 31), {}, {}});
+    const std::vector<double> x = parametrisation.from_material(material);
+    for (const Loss loss : all_losses()) {
+      const Targets targets = make_targets(observed.samples, loss);
+      const Problem exact(parametrisation, observed.samples, targets, loss);
+      const Problem rough(parametrisation, observed.samples, targets, loss, Precision::kSingle);
+      EXPECT_EQ(exact.cost(x), rough.cost(x));
+      double cost = 0.0;
+      double rough_cost = 0.0;
+      const Eigen::MatrixXd gram = exact.gram(x, &cost);
+      expect_same_gram(rough.gram(x, &rough_cost), gram, cost, 1e-4);
+      EXPECT_NEAR(rough_cost, cost, 1e-5 * cost);
+      EXPECT_EQ(exact.curvature(x), rough.curvature(x));
     }
   }
 }
