@@ -84,6 +84,7 @@ std::vector<JudgedFit> fit_all(const Arguments& a, const std::string& name, cons
     fit::FitOptions options;
     options.model = model;
     options.choose_groups = true;  // as `fit` does
+    options.choose_samples = true;
     provenance.request = request_of(options, {});
     results.push_back(fit_and_judge(table, options, judge));
     const auto file = in(a, fmt::format("{}.{}.json", name, name_of(model)));
@@ -131,9 +132,9 @@ int run(const Arguments& a, const std::string& command_line) {
     const fit::FitResult& callisto = results.back().fit;
     const RoundTrip again = round_trip(a, recipe.name, callisto.material, loaded.table, judge);
     if (a.common.json) {
-      for (const auto& [fitted, sphere] : results) {
-        json[recipe.name][std::string(name_of(fitted.options.model))] =
-            evaluation_to_json(fitted.evaluation, sphere.delta_e);
+      for (const JudgedFit& judged : results) {
+        json[recipe.name][std::string(name_of(judged.fit.options.model))] =
+            evaluation_to_json(judged.fit.evaluation, judged.sphere.delta_e);
       }
       json[recipe.name]["exported"] = evaluation_to_json(again.evaluation, again.sphere);
       continue;

@@ -36,7 +36,7 @@ io::Json result_json(const Arguments& a, const JudgedFit& judged, double load_se
   json["material"] = material_path(a, result.options).string();
   json.update(evaluation_to_json(result.evaluation, judged.sphere.delta_e));
   json["free_parameters"] = result.free_parameters;
-  add_selection(result, json);
+  add_choices(judged, json);
   json["converged"] = result.converged;
   json["notes"] = result.notes;
   io::Json timings = {{"load", load_seconds}};
@@ -61,7 +61,7 @@ void print_result(const Arguments& a, const std::vector<JudgedFit>& results, con
   }
   fmt::print("{}\n", format_errors(results));
   for (const JudgedFit& judged : results) {
-    fmt::print("{}\n", format_parameters(judged.fit));
+    fmt::print("{}{}\n", format_parameters(judged.fit), format_evidence(judged));
     if (judged.fit.selection) fmt::print("{}\n", format_ladder(judged.fit));
   }
   if (a.timings)

@@ -38,14 +38,15 @@ bool is_keyword(std::string_view name) {
   return name == "auto" || name == "all" || name == "none";
 }
 
-std::size_t parse_samples(const std::string& text) {
-  if (text == "all") return kAllSamples;
-  std::size_t count = 0;
-  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), count);
-  if (error != std::errc() || end != text.data() + text.size() || count == 0) {
-    throw UsageError("--samples is \"" + text + "\", not a number of cells or \"all\"");
+void apply_samples(const std::string& text, fit::FitOptions& options) {
+  options.choose_samples = text == "auto";
+  if (options.choose_samples) return;
+  options.samples = kAllSamples;
+  if (text == "all") return;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), options.samples);
+  if (error != std::errc() || end != text.data() + text.size() || options.samples == 0) {
+    throw UsageError("--samples is \"" + text + "\", not a number of cells, \"auto\" or \"all\"");
   }
-  return count;
 }
 
 std::pair<std::string, std::vector<double>> parse_fix(const std::string& text) {
@@ -133,7 +134,6 @@ FitArguments::FitArguments()
       on(name_of(kDefaults.on)),
       phi_d_deg(kDefaults.phi_d_deg),
       max_theta_deg(kDefaults.max_theta_deg),
-      samples(std::to_string(kDefaults.samples)),
       loss(name_of(kDefaults.loss)),
       starts(kDefaults.starts),
       seed(kDefaults.seed),
@@ -171,7 +171,10 @@ void add_fit_arguments(CLI::App& app, FitArguments& a) {
          "--max-theta", a.max_theta_deg,
          "leave out directions further from the normal, in degrees (MERL is extrapolated above about 80)")
       ->capture_default_str();
-  app.add_option("--samples", a.samples, "cells of the table to fit, or all")->capture_default_str();
+  app.add_option("--samples", a.samples,
+                 "cells of the table to fit: a number, all, or auto for as many as change the error on cells "
+                 "that were not fitted")
+      ->capture_default_str();
   app.add_option("--loss", a.loss,
                  "what is minimised; auto fits under each and keeps the one whose spheres look most like the "
                  "measured ones")
@@ -193,6 +196,9 @@ void add_fit_arguments(CLI::App& app, FitArguments& a) {
   app.add_option("--cell", a.cell, "where in its cell a stored value belongs")
       ->check(CLI::IsMember({"lower-edge", "centre"}))
       ->capture_default_str();
+  app.add_flag("--held-out{5}", a.held_out_folds,
+               "measure the errors of everything that is done here on blocks of angles that it did not see; "
+               "takes as many fits more as there are folds, --held-out=FOLDS for another number than 5");
   app.add_flag("--lenient", a.lenient, "take NaN and infinities as unmeasured, and say how many");
   app.add_option("--init", a.init, "a material JSON of the same model to start from as well")
       ->allow_extra_args(false);
@@ -215,11 +221,12 @@ std::vector<fit::FitOptions> make_fit_options(const FitArguments& a) {
     options.on = *fit::fit_on_by_name(a.on);
     options.phi_d_deg = a.phi_d_deg;
     options.max_theta_deg = a.max_theta_deg;
-    options.samples = parse_samples(a.samples);
+    apply_samples(a.samples, options);
     options.choose_loss = a.loss == "auto";
     if (!options.choose_loss) options.loss = *fit::loss_by_name(a.loss);
     options.starts = a.starts;
     options.seed = a.seed;
+    options.held_out_folds = a.held_out_folds;
     all.push_back(options);
   }
   apply_fixed(a.fix, all);

@@ -22,7 +22,7 @@ struct FitArguments {
   std::string on;
   std::vector<double> phi_d_deg;
   double max_theta_deg;
-  std::string samples;
+  std::string samples = "auto";
   std::string loss;
   int starts;
   std::uint64_t seed;
@@ -31,6 +31,7 @@ struct FitArguments {
   std::string diffuse;
   std::string cell = "lower-edge";
   bool lenient = false;
+  int held_out_folds = 0;
   std::vector<std::string> init;
   std::vector<std::string> fix;
 };

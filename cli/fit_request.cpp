@@ -48,6 +48,8 @@ std::string given_fit_options(const CLI::App& app) {
     if (option->count() == 0 || !is_fit_option(option->get_name())) continue;
     if (option->get_items_expected_max() == 0) {
       text += " " + option->get_name();
+      // A flag that stands for a number.
+      if (option->results().front() != "true") text += "=" + option->results().back();
     } else if (option->get_delimiter() != '\0') {
       text += fmt::format(" {} {}", option->get_name(), joined(option->results(), option->get_delimiter()));
     } else {

@@ -20,7 +20,7 @@ using render::ReportPicture;
 using render::ReportRung;
 
 // The member of the evidence with the errors that the choice went by.
-constexpr const char* kErrors = "held_out";
+constexpr const char* kErrors = "selection";
 
 // The numbers of all rungs; the first begins with what the evidence calls ladder_start.
 std::vector<ReportRung> rungs_of(const Json& evidence) {

@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <utility>
+
 #include "cli/ladder_cost.h"
 #include "cli/measure_names.h"
 #include "io/material_json.h"
@@ -61,13 +63,60 @@ Json effects_to_json(const fit::FitOptions& options) {
   return fit::names_of_groups(options.model, *options.groups);
 }
 
-Json held_out_to_json(const fit::Selection& selection) {
+// The errors that the choice of groups went by: of many sets the least, so none that a new block would show.
+Json selection_to_json(const fit::Selection& selection) {
   return {{"log_ratio_pct", selection.held_out.log_ratio_pct},
           {"folds_pct", selection.held_out.folds_pct},
           {"without_pct", selection.held_out_without.log_ratio_pct},
           {"all_pct", selection.held_out_all.log_ratio_pct},
           {"free_parameters_all", selection.parameters_all},
           {"sets_compared", selection.sets}};
+}
+
+// Mean and spread over folds of every measure.
+Json over_folds_to_json(const fit::HeldOutEvaluation& held_out, fit::Measures fit::Evaluation::*of) {
+  std::size_t cells = 0;
+  for (const fit::HeldOutFold& fold : held_out.folds) cells += (fold.evaluation.*of).cells;
+  Json json = {{"cells", cells}};
+  if (cells == 0) return json;
+  constexpr std::pair<const char*, double fit::Measures::*> kMeasures[] = {
+      {"log_ratio_pct", &fit::Measures::log_ratio_pct},
+      {"slice_pct", &fit::Measures::slice_pct},
+      {"relative", &fit::Measures::relative},
+      {"cube_root", &fit::Measures::cube_root},
+      {"srgb", &fit::Measures::srgb},
+      {"cosine_l2", &fit::Measures::cosine_l2}};
+  for (const auto& [name, measure] : kMeasures) {
+    const fit::MeanAndSpread value = fit::over_folds(held_out, of, measure);
+    json[name] = {{"mean", value.mean}, {"deviation", value.deviation}};
+  }
+  return json;
+}
+
+Json held_out_to_json(const JudgedFit& judged) {
+  const fit::HeldOutEvaluation& held_out = *judged.held_out;
+  Json folds = Json::array();
+  for (const fit::HeldOutFold& fold : held_out.folds) {
+    folds.push_back({{"log_ratio_pct", fold.evaluation.table.log_ratio_pct},
+                     {"cells", fold.evaluation.table.cells},
+                     {"observations", fold.observations},
+                     {"free_parameters", fold.free_parameters},
+                     {"groups", fit::names_of_groups(judged.fit.options.model, fold.groups)},
+                     {"loss", name_of(fold.loss)}});
+  }
+  return {{"table", over_folds_to_json(held_out, &fit::Evaluation::table)},
+          {"slice", over_folds_to_json(held_out, &fit::Evaluation::slice)},
+          {"folds", folds}};
+}
+
+Json sample_size_to_json(const fit::SampleSize& size) {
+  Json trials = Json::array();
+  for (const fit::SizeTrial& trial : size.trials) {
+    Json json = {{"samples", trial.samples}, {"held_out_pct", trial.held_out_pct}};
+    if (!trials.empty()) json["standard_error_pct"] = trial.standard_error_pct;
+    trials.push_back(json);
+  }
+  return {{"trials", trials}, {"check_cells", size.check_cells}, {"converged", size.converged}};
 }
 
 Json ladder_to_json(const fit::Selection& selection) {
@@ -100,7 +149,10 @@ Json options_to_json(const fit::FitOptions& options) {
   json["on"] = name_of(options.on);
   if (options.on == fit::FitOn::kSlices) json["phi_d_deg"] = options.phi_d_deg;
   if (options.on == fit::FitOn::kTable) {
-    json["samples"] = options.samples == kAllSamples ? Json("all") : Json(options.samples);
+    json["samples"] = options.choose_samples           ? Json("auto")
+                      : options.samples == kAllSamples ? Json("all")
+                                                       : Json(options.samples);
+    if (options.choose_samples) json["sample_threshold"] = options.sample_threshold;
   }
   json["max_theta_deg"] = options.max_theta_deg;
   json["effects"] = effects_to_json(options);
@@ -108,6 +160,7 @@ Json options_to_json(const fit::FitOptions& options) {
   json["loss"] = options.choose_loss ? "auto" : name_of(options.loss);
   json["starts"] = options.starts;
   json["seed"] = options.seed;
+  if (options.held_out_folds > 0) json["held_out_folds"] = options.held_out_folds;
   Json fixed = Json::object();
   for (const auto& [name, values] : options.fixed) fixed[name] = values;
   if (!fixed.empty()) json["fixed"] = fixed;
@@ -121,6 +174,7 @@ Json timings_to_json(const JudgedFit& judged) {
                {"explore", timings.explore_seconds},   {"refine", timings.refine_seconds},
                {"evidence", timings.evidence_seconds}, {"measure", timings.measure_seconds},
                {"sphere", judged.sphere.seconds},      {"fit", judged.total_seconds()}};
+  if (judged.held_out) json["held_out"] = judged.held_out_seconds;
   if (judged.fit.selection) {
     Json costs = Json::array();
     for (const double seconds : ladder_costs(judged.fit)) costs.push_back(seconds);
@@ -137,10 +191,13 @@ std::string path_from(const std::filesystem::path& folder, const std::filesystem
   return error || path.is_absolute() ? "" : path.generic_string();
 }
 
-void add_selection(const fit::FitResult& result, Json& json) {
+void add_choices(const JudgedFit& judged, Json& json) {
+  const fit::FitResult& result = judged.fit;
+  if (result.sample_size) json["sample_size"] = sample_size_to_json(*result.sample_size);
+  if (judged.held_out) json["held_out"] = held_out_to_json(judged);
   json["groups"] = fit::names_of_groups(result.options.model, result.groups);
   if (!result.selection) return;
-  json["held_out"] = held_out_to_json(*result.selection);
+  json["selection"] = selection_to_json(*result.selection);
   json["ladder_start"] = io::effects_and_values_to_json(result.selection->material_without);
   json["ladder"] = ladder_to_json(*result.selection);
 }
@@ -189,7 +246,7 @@ Json evidence_to_json(const JudgedFit& judged, const Provenance& provenance) {
   json["free_parameters"] = result.free_parameters;
   json.update(evaluation_to_json(result.evaluation, judged.sphere.delta_e));
   json["largest_directional_albedo"] = result.largest_albedo;
-  add_selection(result, json);
+  add_choices(judged, json);
   if (!result.losses.empty()) json["losses"] = losses_to_json(result);
   Json parameters = Json::object();
   for (const fit::ParameterState& state : result.parameters) {

@@ -36,8 +36,9 @@ io::Json fit_options_to_json(const fit::FitOptions& options);
 // The member "fit" of a material file. Everything that changes from run to run is under "timings_seconds".
 io::Json evidence_to_json(const JudgedFit& judged, const Provenance& provenance);
 
-// "groups" that a fit used, and "held_out" and "ladder" where it chose them.
-void add_selection(const fit::FitResult& result, io::Json& json);
+// "groups" that a fit used, with "selection" and "ladder" where it chose them; "sample_size" where it chose
+// that; "held_out" where that was asked for.
+void add_choices(const JudgedFit& judged, io::Json& json);
 
 // {"slice": {...}, "table": {...}, "reciprocity_gap_pct": x, "sphere_delta_e": x, ...}
 io::Json evaluation_to_json(const fit::Evaluation& evaluation, const render::SphereDeltaE& sphere);

@@ -87,6 +87,16 @@ CandidateSummary summary_of(const std::string& candidate, const std::vector<cons
   return summary;
 }
 
+HeldOutValues held_out_of(const Json& json, const std::filesystem::path& file) {
+  const Json& log_ratio = member(member(json, "table", file), "log_ratio_pct", file);
+  HeldOutValues values = {number(log_ratio, "mean", file), number(log_ratio, "deviation", file)};
+  const Json& folds = member(json, "folds", file);
+  for (const Json& fold : folds) {
+    values.free_parameters += number(fold, "free_parameters", file) / static_cast<double>(folds.size());
+  }
+  return values;
+}
+
 }  // namespace
 
 ResultRow row_of_result(const Json& document, const std::filesystem::path& file) {
@@ -108,6 +118,7 @@ ResultRow row_of_result(const Json& document, const std::filesystem::path& file)
     const Json& group = *column.group == '\0' ? evidence : member(evidence, column.group, file);
     row.values[k] = number(group, column.key, file);
   }
+  if (evidence.contains("held_out")) row.held_out = held_out_of(evidence["held_out"], file);
   // Finer than effects, where the fit chose among groups of them.
   const Json& effects = evidence.contains("groups") ? evidence["groups"] : member(material, "effects", file);
   for (const Json& effect : effects) {

@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -39,6 +40,13 @@ inline constexpr std::array<MeasureColumn, 14> kMeasureColumns = {
 
 using MeasureValues = std::array<double, kMeasureColumns.size()>;
 
+// Of blocks of angles that nothing of a fit saw, where these were asked for.
+struct HeldOutValues {
+  double log_ratio_pct = 0.0;  // mean over folds
+  double deviation_pct = 0.0;
+  double free_parameters = 0.0;  // mean over folds
+};
+
 struct ResultRow {
   std::string material;   // "blue-fabric"
   std::string candidate;  // "callisto", "callisto (published)"
@@ -48,6 +56,7 @@ struct ResultRow {
   std::string input_sha256;
   double free_parameters = 0.0;
   MeasureValues values = {};
+  std::optional<HeldOutValues> held_out;
   std::vector<std::string> effects;                           // that the material uses
   std::vector<std::pair<std::string, double>> phase_seconds;  // what changes from run to run
 };

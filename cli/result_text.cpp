@@ -27,6 +27,35 @@ std::string error_text(const fit::ParameterState& state) {
   return text;
 }
 
+std::string sample_size_text(const fit::SampleSize& size, const fit::FitResult& result) {
+  std::vector<std::string> trials;
+  for (const fit::SizeTrial& trial : size.trials) {
+    trials.push_back(fmt::format("{} ({:.2f}%)", trial.samples, trial.held_out_pct));
+  }
+  const fit::SizeTrial& last = size.trials.back();
+  const std::string tried = fmt::format("cells fitted, with the log-ratio on {} others: {}", size.check_cells,
+                                        fmt::join(trials, ", "));
+  if (!size.converged) return fmt::format("{}; that still changed, so all {}", tried, result.observations);
+  return fmt::format("{}; the last doubling changes it by {:+.3f} +- {:.3f} points", tried, last.change_pct,
+                     last.standard_error_pct);
+}
+
+std::string held_out_text(const fit::HeldOutEvaluation& held_out) {
+  const auto table = [&](double fit::Measures::*measure) {
+    return fit::over_folds(held_out, &fit::Evaluation::table, measure);
+  };
+  double parameters = 0.0;
+  for (const fit::HeldOutFold& fold : held_out.folds) {
+    parameters += fold.free_parameters / static_cast<double>(held_out.folds.size());
+  }
+  const fit::MeanAndSpread log_ratio = table(&fit::Measures::log_ratio_pct);
+  return fmt::format(
+      "held out (blocks of angles, {} folds, everything done again without each): log-ratio {:.2f}% +- "
+      "{:.2f}, slice {:.2f}%, relative {:.3f}, with {:.1f} free parameters",
+      held_out.folds.size(), log_ratio.mean, log_ratio.deviation, table(&fit::Measures::slice_pct).mean,
+      table(&fit::Measures::relative).mean, parameters);
+}
+
 std::string floors(double seconds, double floor_seconds) {
   return fmt::format("{:.2f}x", seconds / floor_seconds);
 }
@@ -122,6 +151,13 @@ std::string format_parameters(const fit::FitResult& result) {
   return text;
 }
 
+std::string format_evidence(const JudgedFit& judged) {
+  std::string text;
+  if (judged.fit.sample_size) text += "  " + sample_size_text(*judged.fit.sample_size, judged.fit) + "\n";
+  if (judged.held_out) text += "  " + held_out_text(*judged.held_out) + "\n";
+  return text;
+}
+
 std::string format_ladder(const fit::FitResult& result) {
   const fit::Selection& selection = *result.selection;
   const std::vector<double> costs = ladder_costs(result);
@@ -141,9 +177,10 @@ std::string format_ladder(const fit::FitResult& result) {
   }
   rows.push_back({"all", fmt::format("{:.2f}", selection.held_out_all.log_ratio_pct), "",
                   std::to_string(selection.parameters_all), ""});
-  return fmt::format("{}: effects by held-out error (blocks of angles, {} folds, threshold {:g}%)\n",
-                     title_of(result.material.model()), selection.held_out.folds_pct.size(),
-                     100.0 * selection.threshold) +
+  return fmt::format(
+             "{}: effects by the error on blocks of angles ({} folds, threshold {:g}%), the least of many\n",
+             title_of(result.material.model()), selection.held_out.folds_pct.size(),
+             100.0 * selection.threshold) +
          format_table({"step", kMeasures[0].title, "difference", "free", "ns"}, rows);
 }
 

@@ -29,6 +29,9 @@ std::string format_errors(std::span<const JudgedFit> results);
 // Every parameter of a fit with its value, 8-bit sRGB for colours, its range and its status; then the notes.
 std::string format_parameters(const fit::FitResult& result);
 
+// How many cells were fitted and why, and the errors on what was held out: a line for each that there is.
+std::string format_evidence(const JudgedFit& judged);
+
 // What the choice of effects went through: a row per step, with the held-out error after it, its difference
 // with the standard error over folds, the free parameters and the time per evaluation.
 std::string format_ladder(const fit::FitResult& result);

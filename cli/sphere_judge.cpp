@@ -19,15 +19,32 @@ JudgedSphere TableJudge::operator()(const render::Subject& candidate) const {
   return result;
 }
 
+namespace {
+
+fit::FitResult fit_as_asked(const MeasuredTable& table, const fit::FitOptions& options,
+                            const TableJudge& judge) {
+  if (!options.choose_loss) return fit::fit(table, options);
+  return fit::fit_under_best_loss(
+      table, options, [&judge](const Material& material) { return judge(material).delta_e.mean; });
+}
+
+// A judge of its own for each part of the table: the whole table's has seen what is held out.
+fit::FitResult fit_part(const MeasuredTable& part, const fit::FitOptions& options) {
+  if (!options.choose_loss) return fit::fit(part, options);
+  return fit_as_asked(part, options, TableJudge(part, 1));
+}
+
+}  // namespace
+
 JudgedFit fit_and_judge(const MeasuredTable& table, const fit::FitOptions& options, const TableJudge& judge) {
   JudgedFit result;
-  if (options.choose_loss) {
-    result.fit = fit::fit_under_best_loss(
-        table, options, [&judge](const Material& material) { return judge(material).delta_e.mean; });
-  } else {
-    result.fit = fit::fit(table, options);
-  }
+  result.fit = fit_as_asked(table, options, judge);
   result.sphere = judge(result.fit.material);
+  if (options.held_out_folds > 0) {
+    const Stopwatch watch;
+    result.held_out = fit::evaluate_held_out(table, options, fit_part);
+    result.held_out_seconds = watch.seconds();
+  }
   return result;
 }
 

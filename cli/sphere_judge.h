@@ -3,9 +3,11 @@
 #define BRDFIT_CLI_SPHERE_JUDGE_H_
 
 #include <cstddef>
+#include <optional>
 
 #include "cli/common.h"
 #include "fit/fit.h"
+#include "fit/held_out.h"
 #include "render/delta_e.h"
 
 namespace brdfit::cli {
@@ -19,7 +21,10 @@ struct JudgedSphere {
 struct JudgedFit {
   fit::FitResult fit;
   JudgedSphere sphere;
+  std::optional<fit::HeldOutEvaluation> held_out;  // where it was asked for
+  double held_out_seconds = 0.0;
 
+  // Of the fit that was asked for, without the fits to parts of the table.
   double total_seconds() const { return fit.timings.total_seconds + sphere.seconds; }
 };
 
@@ -36,7 +41,7 @@ class TableJudge {
   double share_seconds_;
 };
 
-// Fits, then judges.
+// Fits, judges, and fits again without each block of angles where held-out errors are asked for.
 JudgedFit fit_and_judge(const MeasuredTable& table, const fit::FitOptions& options, const TableJudge& judge);
 
 }  // namespace brdfit::cli

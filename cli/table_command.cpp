@@ -207,6 +207,9 @@ void check(const Arguments& a) {
   if (!a.output.empty() && !a.against.empty()) {
     throw UsageError("--against compares what is there, and -o is for fits");
   }
+  if (a.output.empty() && a.fit.held_out_folds > 0) {
+    throw UsageError("--held-out writes into results: give -o, or ask fit for one table");
+  }
   if (a.merge && !a.shard.empty()) throw UsageError("--merge joins shards, so it has none itself");
 }
 

@@ -85,6 +85,17 @@ Rows effect_rows(const std::vector<CandidateSummary>& summaries) {
   return rows;
 }
 
+Rows held_out_rows(const ResultTable& table) {
+  Rows rows;
+  for (const ResultRow& row : table.rows) {
+    if (!row.held_out) continue;
+    rows.push_back({row.material, row.candidate, fmt::format("{:.1f}", row.held_out->free_parameters),
+                    fmt::format("{:.2f}", row.held_out->log_ratio_pct),
+                    fmt::format("{:.2f}", row.held_out->deviation_pct)});
+  }
+  return rows;
+}
+
 // The parts of a table for people, in the form that `format` gives a heading and rows.
 std::string describe(const ResultTable& table, const std::string& mark,
                      const std::function<std::string(const Cells&, const Rows&)>& format) {
@@ -94,6 +105,11 @@ std::string describe(const ResultTable& table, const std::string& mark,
   if (!summaries.empty()) {
     text += "\n" + mark + "wins per measure (slice|table)\n\n" +
             format(heading_of({"candidate"}), win_rows(summaries));
+  }
+  const Rows held_out = held_out_rows(table);
+  if (!held_out.empty()) {
+    text += "\n" + mark + "errors on blocks of angles that nothing saw, over folds\n\n" +
+            format({"material", "candidate", "free", "log-ratio %", "deviation"}, held_out);
   }
   const Rows effects = effect_rows(summaries);
   if (!effects.empty()) {
@@ -162,6 +178,11 @@ Json row_json(const ResultRow& row) {
                {"input", {{"name", row.input_name}, {"sha256", row.input_sha256}}},
                {"free_parameters", row.free_parameters}};
   json.update(measures_json(row.values));
+  if (row.held_out) {
+    json["held_out_log_ratio_pct"] = row.held_out->log_ratio_pct;
+    json["held_out_deviation_pct"] = row.held_out->deviation_pct;
+    json["held_out_free_parameters"] = row.held_out->free_parameters;
+  }
   json["effects"] = row.effects;
   return json;
 }
@@ -233,13 +254,19 @@ std::string table_csv(const ResultTable& table) {
   Cells heading = {"kind", "material", "candidate", "free_parameters"};
   for (const MeasureColumn& column : kMeasureColumns) heading.emplace_back(column.name);
   heading.emplace_back("effects");
+  const bool has_held_out =
+      std::ranges::any_of(table.rows, [](const ResultRow& row) { return row.held_out.has_value(); });
+  if (has_held_out) heading.emplace_back("held_out_log_ratio_pct");
   std::string text = csv_line(heading);
-  const auto add = [&](const Cells& front, const Cells& values, const Cells& effects) {
-    text += csv_line(joined(joined(front, values), {fmt::format("{}", fmt::join(effects, ";"))}));
+  const auto add = [&](const Cells& front, const Cells& values, const Cells& effects,
+                       const std::optional<HeldOutValues>& held_out = {}) {
+    Cells cells = joined(joined(front, values), {fmt::format("{}", fmt::join(effects, ";"))});
+    if (has_held_out) cells.push_back(held_out ? fmt::format("{}", held_out->log_ratio_pct) : "");
+    text += csv_line(cells);
   };
   for (const ResultRow& row : table.rows) {
     add({"result", row.material, row.candidate, fmt::format("{}", row.free_parameters)},
-        plain_cells(row.values), row.effects);
+        plain_cells(row.values), row.effects, row.held_out);
   }
   for (const CandidateSummary& s : summarise(table.rows)) {
     Cells counts;

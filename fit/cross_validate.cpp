@@ -7,10 +7,9 @@
 #include <cmath>
 #include <numeric>
 
-#include "brdf/models.h"
-#include "brdf/simd/dispatch.h"
 #include "fit/descend.h"
-#include "fit/loss_kernel.h"
+#include "fit/explore.h"
+#include "fit/log_ratio.h"
 #include "fit/plateau.h"
 #include "fit/starts.h"
 
@@ -102,40 +101,6 @@ std::vector<Search> distinct(std::vector<Search> searches) {
 
 }  // namespace
 
-double log_ratio_pct(const Material& material, const SampleSet& samples) {
-  const simd::Coefficients coefficients = simd::coefficients_of(material);
-  const simd::EvalColumns evaluate = simd::eval_columns(simd::best_isa());
-  const std::size_t n = samples.padded_size();
-  const auto f_cos = [&](const simd::GeometryColumns& geometry) {
-    std::vector<double> columns(3 * n);
-    double* const out[3] = {columns.data(), columns.data() + n, columns.data() + 2 * n};
-    evaluate(coefficients, geometry, n, out);
-    return columns;
-  };
-  std::vector<double> y = f_cos(samples.geometry());
-  if (samples.has_two_orders() && !is_reciprocal(material)) {
-    // A stored cell is the mean of both orders.
-    simd::GeometryColumns swapped = samples.geometry();
-    std::swap(swapped.cos_i, swapped.cos_o);
-    const std::vector<double> other = f_cos(swapped);
-    for (std::size_t c = 0; c < 3; ++c) {
-      for (std::size_t k = 0; k < n; ++k) {
-        const double to_cos_i = samples.cos_i()[k] / samples.cos_o()[k];
-        y[c * n + k] = 0.5 * (y[c * n + k] + other[c * n + k] * to_cos_i);
-      }
-    }
-  }
-  double sum = 0.0;
-  for (std::size_t c = 0; c < 3; ++c) {
-    const auto f = samples.f(static_cast<int>(c));
-    for (std::size_t k = 0; k < samples.size(); ++k) {
-      const double r = f[k] * samples.cos_i()[k];
-      sum += samples.weight()[k] * std::abs(std::log((y[c * n + k] + kLogFloor) / (r + kLogFloor)));
-    }
-  }
-  return 100.0 * sum / 3.0;
-}
-
 double standard_error_of_difference(const HeldOut& a, const HeldOut& b) {
   const std::size_t n = a.folds_pct.size();
   if (n < 2) return 0.0;
@@ -173,6 +138,20 @@ Material CrossValidation::merged(const Origin& origin, std::size_t fold) const {
     std::ranges::copy(from, material.values().begin() + info.offset);
   }
   return material;
+}
+
+CrossValidation::FoldFit CrossValidation::explore_fold(const Request& request, std::size_t fold) const {
+  const Parametrisation parameters = parametrisation(request.groups);
+  const SampleSet& samples = folds_[fold].training;
+  const Problem wide(parameters, samples, targets_[fold].wide, options_.loss);
+  const Problem narrow(parameters, samples, targets_[fold].narrow, options_.loss);
+  const ExploreOptions options = {request.fresh_starts, options_.seed + request.variant, request.kick_rounds};
+  const std::vector<Candidate> candidates = explore(narrow, wide, samples, {}, options);
+  FoldFit best = {parameters.to_material(candidates.front().solution.x)};
+  best.cost = candidates.front().solution.cost;
+  for (const Candidate& candidate : candidates) best.evaluations += candidate.solution.evaluations;
+  best.held_out_pct = log_ratio_pct(best.material, folds_[fold].validation);
+  return best;
 }
 
 CrossValidation::FoldFit CrossValidation::fit_fold(const Request& request, std::size_t fold) const {
@@ -220,8 +199,10 @@ CrossValidation::FoldFit CrossValidation::fit_fold(const Request& request, std::
 void CrossValidation::fit(const std::vector<Request>& requests) {
   const std::size_t n = folds_.size();
   std::vector<FoldFit> results(requests.size() * n);
-  tbb::parallel_for(std::size_t{0}, results.size(),
-                    [&](std::size_t k) { results[k] = fit_fold(requests[k / n], k % n); });
+  tbb::parallel_for(std::size_t{0}, results.size(), [&](std::size_t k) {
+    const Request& request = requests[k / n];
+    results[k] = request.kick_rounds > 0 ? explore_fold(request, k % n) : fit_fold(request, k % n);
+  });
   for (std::size_t k = 0; k < results.size(); ++k) {
     evaluations_ += results[k].evaluations;
     std::vector<FoldFit>& known = fits_[requests[k / n].groups.bits()];

@@ -24,9 +24,6 @@ struct HeldOut {
   std::vector<double> folds_pct;  // of each
 };
 
-// The log-ratio of a material over samples, in percent.
-double log_ratio_pct(const Material& material, const SampleSet& samples);
-
 // The standard error of the mean over folds of b - a, in percent points. Folds are compared in pairs, as
 // what is hard to predict in a block is so for both.
 double standard_error_of_difference(const HeldOut& a, const HeldOut& b);
@@ -61,6 +58,7 @@ class CrossValidation {
     std::vector<Origin> origins;
     int fresh_starts = 1;
     std::uint64_t variant = 0;  // of the fresh values, for a set that is fitted again and again
+    int kick_rounds = 0;  // a search as of a whole fit (fit/explore.h) with so many; none for a short one
   };
 
   // Fits sets, in parallel over sets and folds. For a set that was fitted before, the better fit of each fold
@@ -95,6 +93,7 @@ class CrossValidation {
   };
 
   FoldFit fit_fold(const Request& request, std::size_t fold) const;
+  FoldFit explore_fold(const Request& request, std::size_t fold) const;
   Material merged(const Origin& origin, std::size_t fold) const;
   Parametrisation parametrisation(Groups groups) const;
 

@@ -21,9 +21,8 @@ constexpr std::size_t kParents = 4;   // that are kicked in a round
 constexpr std::size_t kPolished = 6;  // of the candidates in the end
 // Candidates whose costs differ by less than this share are taken for the same minimum.
 constexpr double kSameValley = 0.01;
-// Rounds of kicks, and how many stages it takes for all of them: with fewer there is less to kick, and a kick
-// of everything would be a start.
-constexpr int kKickRounds = 6;
+// How many stages it takes for all rounds of kicks: with fewer there is less to kick, and a kick of everything
+// would be a start.
 constexpr int kAllStages = 5;
 
 // Products of one sign stay on the side where they begin.
@@ -139,7 +138,7 @@ std::vector<Candidate> explore(const Problem& problem, const Problem& wide, cons
   const std::vector<std::vector<std::size_t>> groups = kick_groups(stages);
   const std::size_t kicks_a_round = parents * groups.size();
   const std::size_t starts = static_cast<std::size_t>(options.starts);
-  const int rounds = kKickRounds * (static_cast<int>(stages.size()) - 1) / (kAllStages - 1);
+  const int rounds = options.kick_rounds * (static_cast<int>(stages.size()) - 1) / (kAllStages - 1);
   const std::vector<std::vector<double>> points = make_starts(
       parametrisation, samples, options.starts + rounds * static_cast<int>(kicks_a_round), options.seed);
   std::vector<Candidate> candidates(seeds.size() + starts);

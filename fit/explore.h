@@ -22,6 +22,7 @@ struct Candidate {
 struct ExploreOptions {
   int starts = 12;
   std::uint64_t seed = 1;
+  int kick_rounds = 6;  // fewer where there are few stages
 };
 
 // All candidates, best first; the best few stand at minima of `problem`. wide: the same problem with

@@ -11,6 +11,7 @@
 
 #include "brdf/albedo.h"
 #include "fit/descend.h"
+#include "fit/draw.h"
 #include "fit/explore.h"
 #include "fit/metallic.h"
 #include "fit/problem.h"
@@ -22,9 +23,7 @@
 namespace brdfit::fit {
 namespace {
 
-// Exploration looks at a thinned part of the observations, about this many. Fewer lose minima, more only cost
-// time. Slices need more, as a narrow highlight lies in few of their rows.
-constexpr std::size_t kExploredOfTable = 1600;
+// Of a table kExploredOfTable; slices need more, as a narrow highlight lies in few of their rows.
 constexpr std::size_t kExploredOfSlices = 2400;
 // How much wider the squares of a robust loss reach while searching.
 constexpr double kWidening = 3.0;
@@ -71,23 +70,6 @@ Material start_material(const FitOptions& options) {
   return material;
 }
 
-// Observations, and the cells that they come from.
-struct Drawn {
-  SampleSet samples;
-  std::vector<std::size_t> cells;
-};
-
-Drawn draw_samples(const MeasuredTable& table, const FitOptions& options) {
-  SamplingOptions sampling;
-  sampling.max_theta_deg = options.max_theta_deg;
-  Drawn drawn;
-  drawn.samples = options.on == FitOn::kTable
-                      ? sample_table(table, options.samples, options.seed, sampling, &drawn.cells)
-                      : sample_slices(table, options.phi_d_deg, sampling, &drawn.cells);
-  if (drawn.samples.size() == 0) throw std::invalid_argument("no valid cell lies within the given angles");
-  return drawn;
-}
-
 // The best candidates that are not the same minimum found twice, at most count of them.
 std::vector<Candidate> distinct(const std::vector<Candidate>& candidates, std::size_t count) {
   std::vector<Candidate> result;
@@ -103,45 +85,46 @@ std::vector<Candidate> distinct(const std::vector<Candidate>& candidates, std::s
   return result;
 }
 
-// All samples of a fit, and a part of them to explore on.
+// Samples as residuals.
 struct Data {
-  SampleSet all;
-  SampleSet part;
-  Targets all_targets;
-  Targets part_targets;
-  Targets part_wide_targets;
+  SampleSet samples;
+  Targets targets;
 
-  Data(SampleSet samples, const FitOptions& options) : all(std::move(samples)) {
-    const Loss loss = options.loss;
-    const std::size_t explored = options.on == FitOn::kTable ? kExploredOfTable : kExploredOfSlices;
-    const std::size_t stride = (all.size() + explored - 1) / explored;
-    part = all.thinned(stride);
-    all_targets = make_targets(all, loss);
-    part_targets = make_targets(part, loss);
-    part_wide_targets = part_targets;
-    part_wide_targets.robust_width *= kWidening;
+  Data(SampleSet of, Loss loss) : samples(std::move(of)), targets(make_targets(samples, loss)) {}
+};
+
+// Those to explore on; with the targets of a loss that is squared over a wider range too.
+struct Part : Data {
+  Targets wide_targets;
+
+  Part(SampleSet of, Loss loss) : Data(std::move(of), loss), wide_targets(targets) {
+    wide_targets.robust_width *= kWidening;
   }
 };
+
+SampleSet part_to_explore(const Drawn& drawn, const FitOptions& options) {
+  if (drawn.nested) return drawn.samples;
+  const std::size_t explored = options.on == FitOn::kTable ? kExploredOfTable : kExploredOfSlices;
+  return drawn.samples.thinned((drawn.samples.size() + explored - 1) / explored);
+}
 
 class Fitter {
  public:
   // seeds: materials to start from besides.
-  Fitter(const MeasuredTable& table, const FitOptions& options, SampleSet samples,
-         std::vector<Material> seeds)
+  Fitter(const MeasuredTable& table, const FitOptions& options, Drawn drawn, std::vector<Material> seeds)
       : table_(table),
         options_(options),
         seeds_(std::move(seeds)),
         parametrisation_(make_parametrisation(start_material(options), freedom_of(options))),
-        data_(std::move(samples), options),
-        on_part_(parametrisation_, data_.part, data_.part_targets, options.loss),
-        on_part_wide_(parametrisation_, data_.part, data_.part_wide_targets, options.loss,
-                      Precision::kSingle),
-        on_all_(parametrisation_, data_.all, data_.all_targets, options.loss),
-        on_all_rough_(parametrisation_, data_.all, data_.all_targets, options.loss, Precision::kSingle) {}
+        nested_(std::move(drawn.nested)),
+        part_(part_to_explore(drawn, options), options.loss),
+        all_(std::move(drawn.samples), options.loss),
+        on_part_(parametrisation_, part_.samples, part_.targets, options.loss),
+        on_part_wide_(parametrisation_, part_.samples, part_.wide_targets, options.loss, Precision::kSingle),
+        on_all_(parametrisation_, all_.samples, all_.targets, options.loss) {}
 
   FitResult run() {
     result_.options = options_;
-    result_.observations = data_.all.size();
     result_.free_parameters = static_cast<int>(parametrisation_.size());
     result_.groups = usable_groups_of(options_);
     result_.timings.sample_seconds = watch_.lap_seconds();
@@ -170,7 +153,7 @@ class Fitter {
     std::vector<std::vector<double>> seeds;
     if (options_.init) seeds.push_back(parametrisation_.from_material(*options_.init));
     for (const Material& seed : seeds_) seeds.push_back(parametrisation_.from_material(seed));
-    candidates_ = explore(on_part_, on_part_wide_, data_.part, seeds, {start_count(), options_.seed});
+    candidates_ = explore(on_part_, on_part_wide_, part_.samples, seeds, {start_count(), options_.seed});
     result_.starts = static_cast<int>(candidates_.size());
     for (const Candidate& candidate : candidates_) result_.evaluations += candidate.solution.evaluations;
   }
@@ -184,19 +167,57 @@ class Fitter {
       refined.push_back(decide_metallic(on_part_, candidate));
       result_.evaluations += refined.back().evaluations;
     }
-    tbb::parallel_for(std::size_t{0}, refined.size(), [&](std::size_t k) {
-      Candidate& candidate = refined[k].candidate;
-      candidate.solution = descend(on_all_rough_, candidate.solution.x, candidate.box, kBrief);
-    });
-    for (const Decided& decided : refined) result_.evaluations += decided.candidate.solution.evaluations;
+    if (nested_) {
+      grow_samples(refined);
+    } else {
+      descend_to_best(refined);
+    }
+    result_.observations = all_.samples.size();
+    Solution& solution = published_.candidate.solution;
+    // Near the minimum already, Ceres has little left to do.
+    solution = solve_pinning(on_all_, solution.x, published_.candidate.box, {});
+    result_.evaluations += solution.evaluations;
+  }
+
+  // On all samples as they are now; the best goes to its minimum.
+  void descend_to_best(std::vector<Decided>& refined) {
+    const Problem& rough = on_all_rough_.emplace(parametrisation_, all_.samples, all_.targets, options_.loss,
+                                                 Precision::kSingle);
+    if (refined.size() > 1) {
+      tbb::parallel_for(std::size_t{0}, refined.size(), [&](std::size_t k) {
+        Candidate& candidate = refined[k].candidate;
+        candidate.solution = descend(rough, candidate.solution.x, candidate.box, kBrief);
+      });
+      for (const Decided& decided : refined) result_.evaluations += decided.candidate.solution.evaluations;
+    }
     published_ =
         *std::ranges::min_element(refined, {}, [](const Decided& d) { return d.candidate.solution.cost; });
     Solution& solution = published_.candidate.solution;
-    // Near the minimum already, Ceres has little left to do.
-    const Solution rough = descend(on_all_rough_, solution.x, published_.candidate.box, kNearby);
-    const Solution near = descend(on_all_, rough.x, published_.candidate.box, kThorough);
-    solution = solve_pinning(on_all_, near.x, published_.candidate.box, {});
-    result_.evaluations += rough.evaluations + near.evaluations + solution.evaluations;
+    const Solution nearby = descend(rough, solution.x, published_.candidate.box, kNearby);
+    solution = descend(on_all_, nearby.x, published_.candidate.box, kThorough);
+    result_.evaluations += nearby.evaluations + solution.evaluations;
+  }
+
+  // Doubles the samples until that changes little; each size goes on from the minimum of the one before. The
+  // first size chooses between minima, as a search sees few cells.
+  void grow_samples(std::vector<Decided>& refined) {
+    SizeChoice choice(nested_->check(), options_.sample_threshold);
+    const auto tried = [&](const Decided& decided) {
+      return choice.add(all_.samples.size(), parametrisation_.to_material(decided.candidate.solution.x));
+    };
+    tried(refined.front());
+    bool is_enough = false;
+    while (!is_enough && nested_->grow()) {
+      all_ = Data(nested_->samples(), options_.loss);
+      descend_to_best(refined);
+      refined = {published_};
+      is_enough = tried(published_);
+    }
+    if (!is_enough) {
+      all_ = Data(draw_all(table_, options_), options_.loss);
+      descend_to_best(refined);
+    }
+    result_.sample_size = choice.outcome();
   }
 
   // Metallic 0 was kept where another value fits as well: that ties it to specular, whatever stands at x.
@@ -213,7 +234,7 @@ class Fitter {
 
   void look_at_evidence() {
     if (!published_.note.empty()) result_.notes.push_back(published_.note);
-    Settled settled = settle_unidentifiable(on_all_, on_all_rough_, published_.candidate.solution,
+    Settled settled = settle_unidentifiable(on_all_, *on_all_rough_, published_.candidate.solution,
                                             published_.candidate.box);
     mark_undecided(settled);
     result_.evaluations += settled.evaluations;
@@ -251,8 +272,6 @@ class Fitter {
           "the material gives back more light than it gets: its directional albedo reaches {:.2f}",
           result_.largest_albedo));
     }
-    if (options_.on == FitOn::kSlices) {
-    }
     if (options_.max_theta_deg < 90.0) {
       result_.notes.push_back(
           fmt::format("directions further than {:g} deg from the normal were left out of fit and errors",
@@ -265,11 +284,13 @@ class Fitter {
   std::vector<Material> seeds_;
   Stopwatch watch_;
   Parametrisation parametrisation_;
-  Data data_;
+  std::optional<NestedSample> nested_;
+  Part part_;
+  Data all_;
   Problem on_part_;
   Problem on_part_wide_;
   Problem on_all_;
-  Problem on_all_rough_;  // the same in single precision
+  std::optional<Problem> on_all_rough_;  // the same in single precision, of the samples as they are
   std::vector<Candidate> candidates_;
   Decided published_;
   FitResult result_;
@@ -360,6 +381,12 @@ bool FitOptions::is_valid(std::string* why) const {
     return fail(fmt::format("the threshold of groups is {}; 0 or more is needed", group_threshold));
   }
   if (starts < 0) return fail(fmt::format("starts is {}; 0 or more is needed", starts));
+  if (!(sample_threshold >= 0.0)) {
+    return fail(fmt::format("the threshold of samples is {}; 0 or more is needed", sample_threshold));
+  }
+  if (held_out_folds < 0 || held_out_folds == 1) {
+    return fail(fmt::format("{} folds are held out; 0 for none, or 2 and more are needed", held_out_folds));
+  }
   if (samples < 1) return fail("samples is 0; at least 1 is needed");
   if (!(max_theta_deg > 0.0 && max_theta_deg <= 90.0)) {
     return fail(fmt::format("max theta is {} deg, not in (0, 90]", max_theta_deg));
@@ -390,7 +417,7 @@ FitResult fit(const MeasuredTable& table, const FitOptions& options) {
   std::vector<Material> seeds;
   std::optional<Selection> selection;
   if (options.choose_groups && !choice_of(options).usable.empty()) {
-    CrossValidation validation = cross_validation(table, drawn, options);
+    CrossValidation validation = cross_validation(table, draw_for_folds(drawn), options);
     if (!validation.folds().empty()) {
       selection = select_groups(validation, options.model, choice_of(options));
       chosen.groups = selection->chosen;
@@ -399,7 +426,7 @@ FitResult fit(const MeasuredTable& table, const FitOptions& options) {
     }
   }
   const double select_seconds = watch.lap_seconds();
-  FitResult result = Fitter(table, chosen, std::move(drawn.samples), std::move(seeds)).run();
+  FitResult result = Fitter(table, chosen, std::move(drawn), std::move(seeds)).run();
   result.options = options;
   result.selection = std::move(selection);
   add_notes_on_data(result);

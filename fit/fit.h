@@ -12,11 +12,15 @@
 #include "fit/loss.h"
 #include "fit/metrics.h"
 #include "fit/parameters.h"
+#include "fit/sample_size.h"
 #include "fit/select.h"
 #include "measured/sampling.h"
 #include "measured/table.h"
 
 namespace brdfit::fit {
+
+// Valid cells of a table for which the size of a sample is chosen.
+inline constexpr std::size_t kLeastToChoose = 8000;
 
 // What a material is fitted to.
 enum class FitOn { kTable, kSlices };
@@ -46,9 +50,16 @@ struct FitOptions {
   std::vector<double> phi_d_deg = {90.0};  // for slices
   double max_theta_deg = 90.0;
   std::size_t samples = 20000;  // cells of the table; kAllSamples for every one
+  // In place of `samples` as many cells of the table as change the result; see fit/sample_size.h. A table
+  // with fewer than kLeastToChoose valid cells is fitted whole.
+  bool choose_samples = false;
+  double sample_threshold = kSizeThreshold;  // a share of the held-out error
   Loss loss = Loss::kLogRatio;
   // Asks for the loss whose result looks best; fit() itself takes `loss` (see fit/choose_loss.h).
   bool choose_loss = false;
+  // Asks for errors on blocks of angles that nothing of a fit saw; 0 for none, else 2 or more folds. fit()
+  // itself does not look at it (see fit/held_out.h).
+  int held_out_folds = 0;
   int starts = 0;  // points from which the search begins; 0: 4 to 12, by the number of free parameters
   std::uint64_t seed = 1;
 
@@ -61,7 +72,7 @@ struct FitTimings {
   double sample_seconds = 0.0;
   double select_seconds = 0.0;    // which groups to use
   double explore_seconds = 0.0;   // all starts, on a part of the samples
-  double refine_seconds = 0.0;    // the best of them, on all
+  double refine_seconds = 0.0;    // the best of them, on all; and how many these must be
   double evidence_seconds = 0.0;  // identifiability, the dielectric test
   double measure_seconds = 0.0;   // error measures on slice and table
   double total_seconds = 0.0;
@@ -76,8 +87,9 @@ struct LossTrial {
 struct FitResult {
   Material material;
   FitOptions options;
-  std::size_t observations = 0;  // cells that were fitted
-  double cost = 0.0;             // half of the weighted mean square of the residuals, summed over channels
+  std::size_t observations = 0;           // cells that were fitted
+  std::optional<SampleSize> sample_size;  // how many these had to be, where that was chosen
+  double cost = 0.0;  // half of the weighted mean square of the residuals, summed over channels
   int starts = 0;
   int starts_near_best = 0;  // that ended within 5% of the best cost
   int iterations = 0;        // of the published solve

@@ -8,12 +8,24 @@
 namespace brdfit::fit {
 namespace {
 
-// Bands of theta_h (15 rows of a MERL grid: 2.5 deg at the peak, 27 deg at the end) and of phi_d (45 deg).
+// Bands of theta_h (15 rows of a MERL grid: 2.5 deg at the peak, 27 deg at the end) and of phi_d (22.5 deg
+// and their mirror images, which are 45 deg in one piece in the middle).
 constexpr int kBandsH = 6;
 constexpr int kBandsP = 4;
 
 int band_of(int index, int cells, int bands) {
   return index * bands / cells;
+}
+
+// The distance of phi_d from 0 or pi, whichever is nearer, in cells: the same for a cell and its mirror
+// image.
+int folded(const Grid& grid, int i_phi_d) {
+  const int mirror_sum = grid.anchor == CellAnchor::kCentre ? grid.n_phi_d - 1 : grid.n_phi_d;
+  return std::min(i_phi_d, mirror_sum - i_phi_d);
+}
+
+int folded_cells(const Grid& grid) {
+  return folded(grid, grid.n_phi_d / 2) + 1;
 }
 
 // Every stride-th entry, so that about count are left.
@@ -30,7 +42,7 @@ AngleBlocks::AngleBlocks(const Grid& grid, int folds, std::uint64_t seed)
     : grid_(grid),
       bands_h_(std::min(kBandsH, grid.n_theta_h)),
       bands_d_(std::min(folds, grid.n_theta_d)),
-      bands_p_(std::min(kBandsP, grid.n_phi_d)) {
+      bands_p_(std::min(kBandsP, folded_cells(grid))) {
   std::mt19937_64 random(seed);
   std::vector<int> order(static_cast<std::size_t>(folds));
   std::iota(order.begin(), order.end(), 0);
@@ -46,7 +58,7 @@ int AngleBlocks::block_of(std::size_t cell) const {
   const auto n_d = static_cast<std::size_t>(grid_.n_theta_d);
   const int h = band_of(static_cast<int>(cell / n_p / n_d), grid_.n_theta_h, bands_h_);
   const int d = band_of(static_cast<int>(cell / n_p % n_d), grid_.n_theta_d, bands_d_);
-  const int p = band_of(static_cast<int>(cell % n_p), grid_.n_phi_d, bands_p_);
+  const int p = band_of(folded(grid_, static_cast<int>(cell % n_p)), folded_cells(grid_), bands_p_);
   return (h * bands_p_ + p) * bands_d_ + d;
 }
 

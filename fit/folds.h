@@ -1,7 +1,8 @@
 // Folds for cross-validation: samples held out in blocks of angles.
 //
 // Neighbouring cells of a measurement are alike, so a cell drawn at random is known from those around it, and
-// holding it out shows nothing. A block of angles is not.
+// holding it out shows nothing. A block of angles is not, as long as its mirror image is held out with it:
+// the cells at phi_d and pi - phi_d hold one value twice (measured/symmetry.h).
 #ifndef BRDFIT_FIT_FOLDS_H_
 #define BRDFIT_FIT_FOLDS_H_
 
@@ -14,10 +15,10 @@
 
 namespace brdfit::fit {
 
-// Cuts a grid into boxes of neighbouring cells and gives each to a fold. Every band of theta_h at every phi_d
-// is cut along theta_d into as many boxes as there are folds, and each fold gets one of them, in an order
-// drawn anew for each: so every fold holds out a part of each highlight, of each grazing corner and of each
-// slice, and sees the rest.
+// Cuts a grid into boxes of neighbouring cells, each with its mirror image in phi_d, and gives each to a
+// fold. Every band of theta_h at every phi_d is cut along theta_d into as many boxes as there are folds, and
+// each fold gets one of them, in an order drawn anew for each: so every fold holds out a part of each
+// highlight, of each grazing corner and of each slice, and sees the rest.
 class AngleBlocks {
  public:
   AngleBlocks(const Grid& grid, int folds, std::uint64_t seed);

@@ -13,12 +13,14 @@ using Request = CrossValidation::Request;
 // Fresh starts of a fit that has others to begin from too, and of one that has little or nothing.
 constexpr int kFewStarts = 1;
 constexpr int kManyStarts = 3;
-constexpr int kStartsOfAll = 8;
-constexpr std::uint64_t kKicksOfAll = 3;  // rounds
+// Everything together is searched well and first, as others begin from what is found: where its fits end
+// beside the minimum, a group that matters looks as if it could be missed.
+constexpr int kStartsOfAll = 6;
+constexpr int kKickRoundsOfAll = 2;
 
 // The error may rise by this share of the threshold when groups are removed. Less than all of it: fits of few
-// samples overfit and blocks differ, so what a group is worth is seen to be less than it is, and on cells that
-// are new the set must still be within the threshold of everything.
+// samples overfit and blocks differ, so what a group is worth is seen to be less than it is, and on cells
+// that are new the set must still be within the threshold of everything.
 constexpr double kRemovalShare = 0.25;
 
 // A group without which the error is beyond the bound by more than this share is not tried again when others
@@ -36,6 +38,9 @@ class Selector {
     result_.required = set_;
     result_.threshold = options_.threshold;
     validation_.fit({{set_, {}, kManyStarts}});
+    if (options_.usable != set_) {
+      validation_.fit({{options_.usable, {}, kStartsOfAll, 0, kKickRoundsOfAll}});
+    }
     while (grow()) {
     }
     compare_with_all();
@@ -119,8 +124,7 @@ class Selector {
       }
       // From everything, less what is off: where effects are together they may stand elsewhere than one by
       // one.
-      if (validation_.knows(options_.usable)) request.origins.push_back({options_.usable, {}});
-      if (request.origins.size() == 1) request.origins.push_back({set_, {}});
+      request.origins.push_back({options_.usable, {}});
       requests.push_back(std::move(request));
     }
     validation_.fit(requests);
@@ -161,12 +165,8 @@ class Selector {
   bool compare_with_all() {
     const Groups all = options_.usable;
     if (all == set_) return false;
-    Request request = {all, {{set_, {}}, {set_, {}}}, compared_with_all_ ? 0 : kStartsOfAll};
-    if (validation_.knows(all)) request.origins.push_back({set_, all});
-    const std::uint64_t rounds = compared_with_all_ ? 1 : kKicksOfAll;
-    compared_with_all_ = true;
-    validation_.fit({request});
-    for (std::uint64_t round = 0; round < rounds; ++round) validation_.fit({{all, kicks_of(all), 0, round}});
+    validation_.fit({{all, {{set_, {}}, {set_, {}}, {set_, all}}, 0}});
+    validation_.fit({{all, kicks_of(all), 0}});
     std::vector<CrossValidation::Origin> origins = kicks_of(set_);
     origins.push_back({all, {}});
     validation_.fit({{set_, origins, 0}});
@@ -188,7 +188,7 @@ class Selector {
 
   double bound() const {
     double least = std::min(validation_.error(set_), least_);
-    if (validation_.knows(options_.usable)) least = std::min(least, validation_.error(options_.usable));
+    least = std::min(least, validation_.error(options_.usable));
     return (1.0 + kRemovalShare * options_.threshold) * least;
   }
 
@@ -217,7 +217,6 @@ class Selector {
   Groups set_;
   Groups before_;
   Groups needed_;  // that pruning need not try again
-  bool compared_with_all_ = false;
   double least_ = std::numeric_limits<double>::infinity();
   Selection result_;
 };

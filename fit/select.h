@@ -49,7 +49,7 @@ struct SelectionOptions {
   double threshold = kGroupThreshold;
 };
 
-// Grows from the required groups: each time by the effect, with its refinements, whose held-out error is the
+// Fits everything that is usable, then grows from the required groups: each time by the effect, with its refinements, whose held-out error is the
 // least, while that is lower by more than the threshold (a share of the error). Where everything together
 // beats the outcome by more than the threshold, it begins again from everything. Then groups are removed one
 // by one, the least missed first, as long as the error stays within a quarter of the threshold of the least

@@ -43,8 +43,9 @@ TEST_F(Cli, WrongUsageExitsWith2AndOneLineOnStandardError) {
   make_table("soft", Model::kLambertGgx, 1);
   for (const std::string& arguments :
        {std::string(), std::string("fly"), std::string("fit"), "fit --model phong " + quoted("soft.binary"),
-        "fit --samples none " + quoted("soft.binary"), "fit --fix roughness " + quoted("soft.binary"),
-        "fit --fix shine=1 " + quoted("soft.binary"), "fit --fix roughness=7 " + quoted("soft.binary"),
+        "fit --samples none " + quoted("soft.binary"), "fit --held-out=1 " + quoted("soft.binary"),
+        "fit --fix roughness " + quoted("soft.binary"), "fit --fix shine=1 " + quoted("soft.binary"),
+        "fit --fix roughness=7 " + quoted("soft.binary"),
         "fit --model burley --effects dual_specular " + quoted("soft.binary"),
         "fit --max-theta 100 " + quoted("soft.binary"),
         "fit --on slices --phi-d 200 " + quoted("soft.binary")}) {
@@ -174,6 +175,27 @@ TEST_F(Cli, JsonOfFitHasTheNamesThatScriptsRelyOn) {
     EXPECT_GT(entry.at("timings_seconds").at("fit").get<double>(),
               entry.at("timings_seconds").at("sphere").get<double>());
   }
+}
+
+// The errors by which effects were chosen and those of blocks that nothing saw have different names.
+TEST_F(Cli, HeldOutErrorsAndTheSizeOfTheSampleAreToldOnRequest) {
+  make_table("soft", Model::kCallisto, 3);
+  const std::string fit =
+      "fit " + quoted("soft.binary") + " --model callisto --starts 2 --force -o " + quoted("out") + " ";
+  const auto plain = json::parse(run(fit + "--json -q").out)["models"]["callisto"];
+  EXPECT_FALSE(plain.contains("held_out"));
+  EXPECT_TRUE(plain.contains("selection"));
+  EXPECT_GE(plain.at("sample_size").at("trials").size(), 2U);
+  // The option takes no file behind it.
+  const auto held_out = json::parse(run("fit --held-out=2 -q --json --model callisto --starts 2 --force -o " +
+                                        quoted("out") + " " + quoted("soft.binary"))
+                                        .out)["models"]["callisto"];
+  EXPECT_EQ(held_out.at("held_out").at("folds").size(), 2U);
+  EXPECT_GT(held_out.at("held_out").at("table").at("log_ratio_pct").at("mean").get<double>(), 0.0);
+  EXPECT_EQ(held_out.at("table"), plain.at("table"));
+  const std::string text = run(fit + "--held-out --effects none -q").out;
+  EXPECT_THAT(text, HasSubstr("held out (blocks of angles, 5 folds"));
+  EXPECT_THAT(text, HasSubstr("the last doubling changes it by"));
 }
 
 TEST_F(Cli, AnExportedFitHasTheErrorsThatTheFitPrinted) {

@@ -177,6 +177,43 @@ TEST_F(FitSchema, WhatIsWrittenIsValidForEveryChoiceOfSamples) {
   expect_valid("--samples 500 --max-theta 70 --cell centre --starts 2 --seed 18446744073709551615", 3);
 }
 
+// A table that is large enough for a choice, and one that is fitted whole.
+TEST_F(FitSchema, WhatIsWrittenIsValidWithAChosenSizeAndHeldOutErrors) {
+  Recipe large = small_recipe(Model::kCallisto);
+  large.grid = {30, 30, 36, CellAnchor::kLowerEdge};
+  synthetic::generate(large, folder_ / "large.binary");
+  for (const char* table : {"small.binary", "large.binary"}) {
+    for (const Json& material : fit("--held-out=2 --starts 2 --effects none", table)) {
+      EXPECT_EQ(schema_.complaint(material), "") << material.dump(2);
+      EXPECT_EQ(material["fit"].contains("sample_size"), table == std::string("large.binary"));
+      EXPECT_EQ(material["fit"]["held_out"]["folds"].size(), 2U);
+      expect_all_members_are_described(schema_, material);
+      expect_all_numbers_are_bounded(schema_, material);
+    }
+  }
+}
+
+TEST_F(FitSchema, WrongSizesAndHeldOutErrorsAreRefused) {
+  Recipe large = small_recipe(Model::kCallisto);
+  large.grid = {30, 30, 36, CellAnchor::kLowerEdge};
+  synthetic::generate(large, folder_ / "large.binary");
+  const std::vector<Json> written = fit("--held-out=2 --model lambert-ggx", "large.binary");
+  ASSERT_EQ(written.size(), 1U);
+  const Json wrong = Json::parse(R"([
+    ["/options/samples", 500], ["/options/sample_threshold", -1], ["/options/held_out_folds", 1],
+    ["/sample_size/trials", []], ["/sample_size/trials/0/samples", 0], ["/sample_size/trials/0/held_out_pct", -1],
+    ["/sample_size/trials/1/standard_error_pct", -1], ["/sample_size/check_cells", 0],
+    ["/sample_size/converged", 1], ["/held_out/folds", []], ["/held_out/folds/0/observations", 0],
+    ["/held_out/folds/0/groups", ["shine"]], ["/held_out/folds/0/loss", "auto"],
+    ["/held_out/table/log_ratio_pct", 5], ["/held_out/table/log_ratio_pct/deviation", -1],
+    ["/held_out/slice/cells", -1], ["/timings_seconds/held_out", -1]
+  ])");
+  for (const Json& change : wrong) {
+    const std::string place = "/fit" + change[0].get<std::string>();
+    EXPECT_NE(complaint_with(schema_, written[0], place, change[1]), "") << change;
+  }
+}
+
 TEST_F(FitSchema, WhatIsWrittenIsValidForEveryChoiceOfModel) {
   expect_valid("--samples 500 --effects none", 3);
   expect_valid("--samples 500 --effects sheen,dual_specular", 3);

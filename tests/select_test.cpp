@@ -1,11 +1,13 @@
 // The choice of effects: what it sees, what it finds, and what it says of it.
 #include "fit/select.h"
 
+#include <fmt/format.h>
 #include <gmock/gmock.h>
 #include <tbb/global_control.h>
 
 #include "brdf/models.h"
 #include "fit/fit.h"
+#include "fit/log_ratio.h"
 #include "fit/metrics.h"
 #include "fit/problem.h"
 #include "tests/selection_study.h"
@@ -262,7 +264,8 @@ TEST(FitToTheSliceAt90, LeavesTheTerminatorAtItsDefaultAndSaysSo) {
   EXPECT_FALSE(result.material.effects().has(Effect::kSmoothTerminator));
   EXPECT_EQ(result.material.number("smooth_terminator"), 0.0);
   EXPECT_THAT(result.notes, testing::Contains(HasSubstr("does not show the smooth terminator")));
-  EXPECT_THAT(result.notes, testing::Contains(HasSubstr("on the whole table")));
+  EXPECT_THAT(result.notes, testing::Contains(HasSubstr(fmt::format("{:.1f}% on the whole table",
+                                                                    result.evaluation.table.log_ratio_pct))));
 }
 
 TEST(FitToTheSliceAt90, MayUseTheTerminatorWhenTold) {

@@ -193,6 +193,27 @@ TEST_F(TableRun, AFinishedResultIsNotFittedAgain) {
   EXPECT_EQ(contents("out").size(), 6U + 4U);
 }
 
+TEST_F(TableRun, HeldOutErrorsAreInEveryTableWhereAskedFor) {
+  make_tables();
+  ASSERT_EQ(run(table("plain", "-q --model lambert-ggx")).exit_code, 0);
+  ASSERT_EQ(run(table("out", "-q --model lambert-ggx --held-out=2")).exit_code, 0);
+  const auto json = ordered_json::parse(tests::read_text(path("out/table.json")));
+  const auto result = ordered_json::parse(tests::read_text(path("out/clay.lambert-ggx.json")));
+  const auto& held_out = result["fit"]["held_out"]["table"]["log_ratio_pct"];
+  EXPECT_EQ(json["rows"][2]["held_out_log_ratio_pct"], held_out["mean"]);
+  EXPECT_EQ(json["rows"][2]["held_out_deviation_pct"], held_out["deviation"]);
+  for (const char* file : {"out/table.txt", "out/table.md"}) {
+    EXPECT_THAT(tests::read_text(path(file)), HasSubstr("blocks of angles that nothing saw"));
+  }
+  const auto rows = parse_csv(tests::read_text(path("out/table.csv")));
+  EXPECT_EQ(rows[0].back(), "held_out_log_ratio_pct");
+  EXPECT_EQ(std::stod(rows[3].back()), held_out["mean"].get<double>());
+  for (const auto& row : rows) EXPECT_EQ(row.size(), rows[0].size());
+  EXPECT_THAT(tests::read_text(path("plain/table.txt")), testing::Not(HasSubstr("nothing saw")));
+  // The line that makes a result alone.
+  EXPECT_THAT(result["fit"]["command"].get<std::string>(), HasSubstr("--held-out=2"));
+}
+
 TEST_F(TableRun, ResultsOfOtherOptionsOrInputsAreKeptUnlessForced) {
   make_tables();
   ASSERT_EQ(run(table("out", "-q --model lambert-ggx")).exit_code, 0);
@@ -201,6 +222,14 @@ TEST_F(TableRun, ResultsOfOtherOptionsOrInputsAreKeptUnlessForced) {
   EXPECT_EQ(other.exit_code, 2);
   EXPECT_THAT(other.err, HasSubstr("--force"));
   EXPECT_EQ(contents("out"), bytes);
+  // Neither the choice of a size nor held-out errors are in what is there.
+  for (const char* more : {"--held-out", "--held-out=3", "--samples auto"}) {
+    EXPECT_EQ(run("table " + quoted("in") + " --starts 2 -q --model lambert-ggx -o " + quoted("out") +
+                  (std::string(more).starts_with("--s") ? " " : " --samples 800 ") + more)
+                  .exit_code,
+              2)
+        << more;
+  }
   make_table("in/clay", Model::kBurley, 4);
   const ProgramResult changed = run(table("out", "-q --model lambert-ggx"));
   EXPECT_EQ(changed.exit_code, 4);
