@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include "fit/fit.h"
+#include "fit/log_ratio.h"
 #include "tests/selection_study.h"
 
 namespace brdfit::fit {
