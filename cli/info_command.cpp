@@ -133,7 +133,7 @@ Command add_info_command(CLI::App& program) {
   auto a = std::make_shared<Arguments>();
   CLI::App* app = program.add_subcommand("info", "what a file holds, and whether it is sound");
   app->footer(
-      "Examples: brdfit info blue-fabric.binary\n          brdfit info lion.lp --transfer linear --lights "
+      "Example: brdfit info blue-fabric.binary\n     or: brdfit info lion.lp --transfer linear --lights "
       "lights.png");
   app->add_option("file", a->file, "MERL-format .binary file, a material .json, or a stack: olat.json or .lp")
       ->required();

@@ -346,6 +346,7 @@ TEST_F(FitSchema, GroupsAreThoseOfTheModel) {
       const bool is_own = material["model"] == model;
       Json ladder = Json::array({step});
       ladder[0]["groups"] = {group};
+      if (material["fit"].contains("ladder")) ladder[0]["material"] = material["fit"]["ladder_start"];
       std::vector<std::pair<std::string, Json>> places = {{"/fit/groups", {group}},
                                                           {"/fit/options/effects", {group}}};
       if (material["fit"].contains("ladder")) places.emplace_back("/fit/ladder", ladder);
