@@ -7,6 +7,7 @@
 #include <cstring>
 #include <exception>
 #include <memory>
+#include <mutex>
 #include <vector>
 
 namespace brdfit::io {
@@ -34,9 +35,18 @@ SampleType sample_type(OIIO::TypeDesc type) {
 }
 
 // Images are decoded in parallel, each by one thread; pools inside the libraries would only be in the way.
+// Said once: each time resizes OpenImageIO's pool, which threads that open images at the same time do not
+// survive.
 void use_one_thread() {
-  OIIO::attribute("threads", 1);
-  OIIO::attribute("exr_threads", -1);
+  static const bool is_said = OIIO::attribute("threads", 1) && OIIO::attribute("exr_threads", -1);
+  static_cast<void>(is_said);
+}
+
+// OpenImageIO 2.4 cannot open two JPEG images with colour profiles at once (its issue 3756). Only headers are
+// read then, so it costs little to take turns.
+std::mutex& opening() {
+  static std::mutex mutex;
+  return mutex;
 }
 
 // OpenImageIO keeps errors of opening per thread, and often ends them with a new line.
@@ -113,7 +123,9 @@ void* open(const std::string& file, ImageHeader& header, std::string& error) {
     // Alpha is not used, so colours must not be multiplied with it.
     OIIO::ImageSpec config;
     config.attribute("oiio:UnassociatedAlpha", 1);
+    std::unique_lock<std::mutex> turn(opening());
     auto input = OIIO::ImageInput::open(file, &config);
+    turn.unlock();
     if (!input) {
       error = one_line(OIIO::geterror());
       return nullptr;
