@@ -33,6 +33,13 @@ std::vector<std::uint32_t> sample_of(const StackInfo& info, std::size_t count) {
   return sample;
 }
 
+// "lion" of lion.olat.json, which is "lion.olat" without its ending.
+std::string name_of_stack(std::string name) {
+  constexpr std::string_view kOlat = ".olat";
+  if (name.size() > kOlat.size() && name.ends_with(kOlat)) name.resize(name.size() - kOlat.size());
+  return name;
+}
+
 io::FileStack open_stack(const BakeArguments& a) {
   io::FileStackOptions options;
   if (!a.transfer.empty()) {
@@ -50,7 +57,7 @@ class Bake {
  public:
   Bake(const BakeArguments& a, std::string command_line)
       : a_(a), settings_(bake_settings_of(a)), command_line_(std::move(command_line)), stack_(open_stack(a)) {
-    asset_.name = a.name.empty() ? stack_.info().name : a.name;
+    asset_.name = a.name.empty() ? name_of_stack(stack_.info().name) : a.name;
     json_file_ = std::filesystem::path(a.output) / (asset_.name + ".realis.json");
     prepare_output(json_file_, a.common.force);
   }

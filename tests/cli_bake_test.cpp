@@ -1,0 +1,153 @@
+// The way from a recipe to a relit picture: synth, info, bake, relight.
+#include <gmock/gmock.h>
+
+#include <cmath>
+#include <vector>
+
+#include "cli/asset_files.h"
+#include "data/synthetic/stack.h"
+#include "data/synthetic/stack_recipe.h"
+#include "io/exr_rows.h"
+#include "io/image_stack_file.h"
+#include "io/realis_json.h"
+#include "tests/cli_fixture.h"
+
+namespace brdfit::cli {
+namespace {
+
+using testing::HasSubstr;
+
+class CliBake : public tests::CliFixture {
+ protected:
+  // A matte surface with a residual that no model explains, normals and albedo given.
+  synthetic::StackRecipe recipe() const {
+    synthetic::StackRecipe recipe;
+    recipe.name = "bumps";
+    recipe.width = 24;
+    recipe.height = 20;
+    Material material(Model::kLambertGgx);
+    material.set("base_color", 0.6);
+    material.set("specular", 0.0);
+    recipe.materials = {material};
+    recipe.shape.slope = 0.4;
+    recipe.shape.wavelength_px = 16;
+    recipe.cast_shadows = false;
+    recipe.lights.count = 30;
+    recipe.lights.theta_deg = 60;
+    recipe.residual = {4, 6.0, 180.0, 0.2};
+    recipe.files.give_normals = true;
+    recipe.files.give_albedo = true;
+    return recipe;
+  }
+
+  void synth(const synthetic::StackRecipe& recipe) {
+    io::write_json(path("recipe.json"), synthetic::stack_recipe_to_json(recipe));
+    const tests::ProgramResult made =
+        run("synth -q --force -o " + quoted("stack") + " " + quoted("recipe.json"));
+    ASSERT_EQ(made.exit_code, 0) << made.err;
+  }
+
+  tests::ProgramResult bake(const std::string& options) {
+    return run("bake -q --force -o " + quoted("baked") + " " + options + " " +
+               quoted("stack/bumps.olat.json"));
+  }
+};
+
+TEST_F(CliBake, TheStackOnDiskIsTheOneOfTheRecipe) {
+  synth(recipe());
+  synthetic::SyntheticStack truth(recipe());
+  io::FileStack stack(io::read_stack_source(path("stack/bumps.olat.json")));
+  const TexelBlock expected = truth.read_rows(3, 5);
+  const TexelBlock found = stack.read_rows(3, 5);
+  ASSERT_EQ(found.rgb.size(), expected.rgb.size());
+  for (std::size_t k = 0; k < found.rgb.size(); ++k) EXPECT_NEAR(found.rgb[k], expected.rgb[k], 1e-6);
+  ASSERT_EQ(found.normals.size(), expected.normals.size());
+  for (std::size_t k = 0; k < found.normals.size(); ++k)
+    EXPECT_NEAR(found.normals[k], expected.normals[k], 1e-6);
+  for (std::size_t light = 0; light < 30; ++light) {
+    EXPECT_NEAR(stack.info().lights[light].direction.x, truth.info().lights[light].direction.x, 1e-9);
+  }
+}
+
+TEST_F(CliBake, CorrectsWhatTheModelMissesUnderLightsThatItHasNotSeen) {
+  synth(recipe());
+  const tests::ProgramResult baked = bake("--lobes 4 --base lambert --folds 5 --json");
+  ASSERT_EQ(baked.exit_code, 0) << baked.err;
+  const io::Json json = io::Json::parse(baked.out);
+  const io::Json& evidence = json["evidence"];
+  const double lambert = evidence["lambert"]["held_out_rmse_255"];
+  const double realis = evidence["realis"]["held_out_rmse_255"];
+  EXPECT_GT(lambert, 3.0);
+  EXPECT_LT(realis, 0.35 * lambert);
+  // Rounding to 8 bits costs less than a quarter of a display code.
+  EXPECT_LT(evidence["realis-8bit"]["train_rmse_255"].get<double>(),
+            evidence["realis"]["train_rmse_255"].get<double>() + 0.25);
+  EXPECT_EQ(json["lobes"], 4);
+  EXPECT_EQ(json["bytes_per_texel"], 4.0);
+}
+
+TEST_F(CliBake, RelightsAsTheStackWasLit) {
+  synth(recipe());
+  ASSERT_EQ(bake("--lobes 4 --base lambert --no-evidence").exit_code, 0);
+  synthetic::SyntheticStack truth(recipe());
+  const std::size_t light = 11;
+  const Vec3 d = truth.info().lights[light].direction;
+  const std::string direction =
+      " --light " + std::to_string(d.x) + "," + std::to_string(d.y) + "," + std::to_string(d.z);
+  for (const std::string& codes : {std::string(), std::string(" --unpacked")}) {
+    const tests::ProgramResult relit = run("relight -q --force -o " + quoted("relit.exr") + direction +
+                                           codes + " " + quoted("baked/bumps.realis.json"));
+    ASSERT_EQ(relit.exit_code, 0) << relit.err;
+    const std::vector<float> found = io::ExrRowReader(path("relit.exr"), {"R", "G", "B"}).read(0, 20);
+    const TexelBlock expected = truth.read_rows(0, 20);
+    double squares = 0.0;
+    for (std::size_t c = 0; c < 3; ++c) {
+      for (std::size_t k = 0; k < expected.count(); ++k) {
+        squares +=
+            std::pow(static_cast<double>(found[c * expected.count() + k] - expected.plane(light, c)[k]), 2);
+      }
+    }
+    EXPECT_LT(255.0 * std::sqrt(squares / static_cast<double>(found.size())), 2.0) << codes;
+  }
+}
+
+TEST_F(CliBake, EveryColourAndPackingIsReadBack) {
+  synth(recipe());
+  for (const std::string& colour :
+       {std::string("luminance"), std::string("scaled-chroma"), std::string("rgb")}) {
+    for (const std::string& packing :
+         {std::string("--bits 8"), std::string("--bits 4 --dominant 2 --half")}) {
+      const tests::ProgramResult baked =
+          bake("--lobes 4 --base lambert --no-evidence --colour " + colour + " " + packing);
+      ASSERT_EQ(baked.exit_code, 0) << baked.err;
+      const tests::ProgramResult relit =
+          run("relight -q --force -o " + quoted("relit.png") + " " + quoted("baked/bumps.realis.json"));
+      EXPECT_EQ(relit.exit_code, 0) << colour << packing << relit.err;
+      EXPECT_TRUE(std::filesystem::exists(path("relit.png")));
+    }
+  }
+}
+
+TEST_F(CliBake, TheResultDoesNotDependOnThreadsOrStrips) {
+  synth(recipe());
+  ASSERT_EQ(bake("--lobes 4 --base lambert --no-evidence --threads 1 --memory 16").exit_code, 0);
+  const std::string one = tests::read_text(path("baked/bumps.amplitudes.exr"));
+  ASSERT_EQ(bake("--lobes 4 --base lambert --no-evidence --threads 2").exit_code, 0);
+  EXPECT_EQ(tests::read_text(path("baked/bumps.amplitudes.exr")), one);
+}
+
+TEST_F(CliBake, RefusesInOneLine) {
+  synth(recipe());
+  EXPECT_EQ(bake("--lobes 99").exit_code, 2);
+  EXPECT_EQ(bake("--transfer log").exit_code, 2);
+  std::filesystem::remove(path("stack/bumps.0003.exr"));
+  const tests::ProgramResult missing = bake("--lobes 4");
+  EXPECT_EQ(missing.exit_code, 3);
+  EXPECT_THAT(missing.err, HasSubstr("bumps.0003.exr"));
+  EXPECT_FALSE(std::filesystem::exists(path("baked/bumps.realis.json")));
+  const tests::ProgramResult damaged = run("relight -o " + quoted("x.png") + " " + quoted("recipe.json"));
+  EXPECT_EQ(damaged.exit_code, 3);
+}
+
+}  // namespace
+}  // namespace brdfit::cli
