@@ -258,10 +258,10 @@ class Predictor {
     const int half = std::max(1, all / 2);
     std::vector<std::pair<std::string, CompressOptions>> kinds{{name, {0, all, false}}};
     if (compressed) {
-      kinds.push_back({name + "-8bit", {8, all, true}});
-      kinds.push_back({name + "-4bit", {4, all, true}});
+      kinds.push_back({name + "-8bit", {8, all, options_.dither}});
+      kinds.push_back({name + "-4bit", {4, all, options_.dither}});
       kinds.push_back({fmt::format("{}-m{}", name, half), {0, half, false}});
-      kinds.push_back({fmt::format("{}-m{}-8bit", name, half), {8, half, true}});
+      kinds.push_back({fmt::format("{}-m{}-8bit", name, half), {8, half, options_.dither}});
     }
     if (!plan.system) {
       for (const auto& [kind, options] : kinds) {

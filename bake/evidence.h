@@ -38,6 +38,7 @@ struct EvidenceOptions {
   int folds = 0;                         // 0: each light by itself up to 24 lights, else folds of about ten
   std::vector<int> other_lobes{4};       // Realis with these numbers of lobes too
   bool compressed = true;                // with 8 and 4 bits, and with half of the lobes per texel
+  bool dither = true;                    // of what is rounded
   std::function<void(double)> progress;  // the share that is done, in [0, 1]; may be empty
 };
 

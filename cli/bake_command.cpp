@@ -86,6 +86,7 @@ class Bake {
     Stopwatch watch;
     bake::EvidenceOptions options;
     options.folds = a_.folds;
+    options.dither = !a_.no_dither;
     const int folds = bake::fold_count(stack_.info().lights.size(), a_.folds);
     Progress progress(static_cast<std::size_t>(folds), a_.common.quiet || a_.common.json);
     options.progress = [&](double) {
