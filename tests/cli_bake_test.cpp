@@ -11,6 +11,7 @@
 #include "io/image_stack_file.h"
 #include "io/realis_json.h"
 #include "tests/cli_fixture.h"
+#include "tests/json_schema.h"
 
 namespace brdfit::cli {
 namespace {
@@ -84,6 +85,23 @@ TEST_F(CliBake, CorrectsWhatTheModelMissesUnderLightsThatItHasNotSeen) {
             evidence["realis"]["train_rmse_255"].get<double>() + 0.25);
   EXPECT_EQ(json["lobes"], 4);
   EXPECT_EQ(json["bytes_per_texel"], 4.0);
+}
+
+TEST_F(CliBake, WhatIsWrittenFitsItsSchema) {
+  synth(recipe());
+  const tests::JsonSchema schema(
+      io::read_json(std::filesystem::path(BRDFIT_SOURCE_DIR) / "docs/schema/realis.schema.json"));
+  for (const std::string& options :
+       {std::string("--base auto --gains --folds 3 --lobes 2"),
+        std::string("--base lambert --no-evidence --lobes 2 --uniform --colour rgb")}) {
+    const tests::ProgramResult baked = bake(options);
+    ASSERT_EQ(baked.exit_code, 0) << baked.err;
+    const io::Json json = io::read_json(path("baked/bumps.realis.json"));
+    EXPECT_EQ(schema.complaint(json), "") << options;
+    io::Json unknown = json;
+    unknown["bake"]["plan"]["extra"] = 1;
+    EXPECT_NE(schema.complaint(unknown), "");
+  }
 }
 
 TEST_F(CliBake, RelightsAsTheStackWasLit) {
