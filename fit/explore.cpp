@@ -21,8 +21,8 @@ constexpr std::size_t kParents = 4;   // that are kicked in a round
 constexpr std::size_t kPolished = 6;  // of the candidates in the end
 // Candidates whose costs differ by less than this share are taken for the same minimum.
 constexpr double kSameValley = 0.01;
-// How many stages it takes for all rounds of kicks: with fewer there is less to kick, and a kick of everything
-// would be a start.
+// How many stages it takes for all rounds of kicks: with fewer there is less to kick, and a kick of
+// everything would be a start.
 constexpr int kAllStages = 5;
 
 // Products of one sign stay on the side where they begin.

@@ -49,12 +49,12 @@ struct SelectionOptions {
   double threshold = kGroupThreshold;
 };
 
-// Fits everything that is usable, then grows from the required groups: each time by the effect, with its refinements, whose held-out error is the
-// least, while that is lower by more than the threshold (a share of the error). Where everything together
-// beats the outcome by more than the threshold, it begins again from everything. Then groups are removed one
-// by one, the least missed first, as long as the error stays within a quarter of the threshold of the least
-// that was met. So the outcome is never worse than everything by more than the threshold on the held-out
-// cells, with a margin for what they do not tell of others.
+// Fits everything that is usable, then grows from the required groups: each time by the effect, with its
+// refinements, whose held-out error is the least, while that is lower by more than the threshold (a share of
+// the error). Where everything together beats the outcome by more than the threshold, it begins again from
+// everything. Then groups are removed one by one, the least missed first, as long as the error stays within a
+// quarter of the threshold of the least that was met. So the outcome is never worse than everything by more
+// than the threshold on the held-out cells, with a margin for what they do not tell of others.
 Selection select_groups(CrossValidation& validation, Model model, const SelectionOptions& options);
 
 // Fills in the materials of a selection: what each step looks like, fitted to about 2400 of the samples
