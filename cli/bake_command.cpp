@@ -176,6 +176,8 @@ class Bake {
 
   void write() {
     describe_asset();
+    for (const std::filesystem::path& file : asset_paths(asset_, a_.output))
+      prepare_output(file, a_.common.force);
     AssetWriter writer(asset_, a_.output, a_.half ? io::ExrDepth::kHalf : io::ExrDepth::kFloat);
     const int strip = std::max(1, stack_.strip_rows());
     const int height = stack_.info().height;

@@ -154,6 +154,17 @@ TEST_F(CliBake, TheResultDoesNotDependOnThreadsOrStrips) {
   EXPECT_EQ(tests::read_text(path("baked/bumps.amplitudes.exr")), one);
 }
 
+TEST_F(CliBake, OverwritesNoTextureUnlessTold) {
+  synth(recipe());
+  write_bytes("bumps.albedo.png", "mine");
+  const tests::ProgramResult baked = run("bake -q --lobes 2 --base lambert --no-evidence -o " + quoted("") +
+                                         " " + quoted("stack/bumps.olat.json"));
+  EXPECT_EQ(baked.exit_code, 2);
+  EXPECT_THAT(baked.err, HasSubstr("bumps.albedo.png"));
+  EXPECT_EQ(tests::read_text(path("bumps.albedo.png")), "mine");
+  EXPECT_FALSE(std::filesystem::exists(path("bumps.realis.json")));
+}
+
 TEST_F(CliBake, RefusesInOneLine) {
   synth(recipe());
   EXPECT_EQ(bake("--lobes 99").exit_code, 2);
