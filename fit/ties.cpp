@@ -32,6 +32,7 @@ bool leads_inside(const Eigen::VectorXd& direction, double sign, const std::vect
 void add_hidden_ties(const Parametrisation& parametrisation, std::span<const double> x, const Box& box,
                      const Eigen::MatrixXd& gram, const std::vector<bool>& held,
                      Identifiability& identifiability) {
+  if (x.empty()) return;
   Eigen::VectorXd scale(static_cast<Eigen::Index>(x.size()));
   for (std::size_t k = 0; k < x.size(); ++k) {
     scale[static_cast<Eigen::Index>(k)] = parametrisation.scale(k, x[k]);
