@@ -1,3 +1,4 @@
+// Renders of blocks, and base colours in closed form.
 #include "bake/base_model.h"
 
 #include <tbb/blocked_range.h>

@@ -1,3 +1,4 @@
+// Polynomials and spherical harmonics per texel, by singular values.
 #include "bake/baselines.h"
 
 #include <Eigen/SVD>

@@ -1,3 +1,4 @@
+// Lambert and materials compared under lights held out.
 #include "bake/choose_base.h"
 
 #include <algorithm>

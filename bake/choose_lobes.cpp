@@ -1,3 +1,4 @@
+// Lobe sets compared under lights held out, everything redone without them.
 #include "bake/choose_lobes.h"
 
 #include <tbb/parallel_for.h>

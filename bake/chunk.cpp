@@ -1,3 +1,4 @@
+// Blocks cut into chunks: lights per texel, padding, moving to and fro.
 #include "bake/chunk.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Dropping lobes and rounding amplitudes of one texel.
 #include "bake/compress.h"
 
 #include <Eigen/Cholesky>

@@ -40,7 +40,7 @@ Dominant dominant_lobes(const TexelEquations& equations, int count);
 struct Quantiser {
   int bits = 8;                   // 2 to 16
   std::vector<double> precision;  // per lobe: amplitude of the largest code; 0 where a lobe is not used
-  int largest_code() const { return (1 << (bits - 1)) - 1; }
+  int largest_code() const { return realis_largest_code(bits); }
   double amplitude(int lobe, int code) const;
 };
 

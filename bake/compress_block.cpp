@@ -1,3 +1,4 @@
+// The same for the texels of a block, in parallel.
 #include "bake/compress_block.h"
 
 #include <tbb/parallel_for.h>

@@ -1,3 +1,4 @@
+// Shadow contours in pictures, and the weight of what lies between two of them.
 #include "bake/contours.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Folds over lights: plan, bake, predict, tally.
 #include "bake/evidence.h"
 
 #include <fmt/format.h>
@@ -143,12 +144,6 @@ std::vector<float> luminances(const TexelBlock& block) {
     }
   }
   return out;
-}
-
-std::vector<Vec3> directions_of(const StackInfo& info) {
-  std::vector<Vec3> directions;
-  for (const StackLight& light : info.lights) directions.push_back(light.direction);
-  return directions;
 }
 
 std::vector<float> difference(std::span<const float> a, std::span<const float> b) {

@@ -1,3 +1,4 @@
+// Ratios of values to renders per light, by classes of normals.
 #include "bake/gains.h"
 
 #include <algorithm>

@@ -1,3 +1,4 @@
+// Lloyd's rounds from seeded starts.
 #include "bake/k_means.h"
 
 #include <algorithm>

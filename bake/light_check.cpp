@@ -65,7 +65,7 @@ Matrix limited_values(const StackInfo& info, const TexelBlock& block) {
   return values;
 }
 
-Matrix directions_of(const StackInfo& info) {
+Matrix direction_rows(const StackInfo& info) {
   Matrix directions(static_cast<Index>(info.lights.size()), 3);
   for (Index l = 0; l < directions.rows(); ++l) {
     const Vec3& d = info.lights[static_cast<std::size_t>(l)].direction;
@@ -163,7 +163,7 @@ Order inverse_of(const Order& order) {
 class Checker {
  public:
   Checker(const StackInfo& info, const TexelBlock& block)
-      : info_(info), block_(block), values_(limited_values(info, block)), directions_(directions_of(info)) {}
+      : info_(info), block_(block), values_(limited_values(info, block)), directions_(direction_rows(info)) {}
 
   LightCheck run() {
     LightCheck result;

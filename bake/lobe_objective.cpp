@@ -1,3 +1,4 @@
+// The leave-one-out error of a lobe set over residual classes, with its derivatives.
 #include "bake/lobe_objective.h"
 
 #include <Eigen/Cholesky>

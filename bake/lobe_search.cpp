@@ -1,3 +1,4 @@
+// Starts, and the descent from each.
 #include "bake/lobe_search.h"
 
 #include <ceres/gradient_problem.h>

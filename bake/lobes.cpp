@@ -1,3 +1,4 @@
+// Points on caps, uniform sets, values under lights.
 #include "bake/lobes.h"
 
 #include <algorithm>
@@ -58,6 +59,11 @@ Cap cap_of(std::span<const Vec3> directions) {
   return cap;
 }
 
+Vec3 cap_point(const Cap& cap, int k, int count) {
+  const double cos_theta = 1.0 - (1.0 - std::cos(cap.angle)) * (k + 0.5) / count;
+  return around(cap.axis, cos_theta, kGoldenAngle * k);
+}
+
 double spacing(const Cap& cap, std::size_t count) {
   const double area = 2.0 * std::numbers::pi * (1.0 - std::cos(cap.angle));
   return std::max(1e-3, std::sqrt(area / static_cast<double>(count)));
@@ -72,8 +78,7 @@ LobeSet uniform_lobes(int count, const Cap& cap, double overlap) {
   const double sharpness = -std::log(overlap) / (1.0 - std::cos(distance));
   LobeSet lobes;
   for (int k = 0; k < count; ++k) {
-    const double cos_theta = 1.0 - (1.0 - std::cos(cap.angle)) * (k + 0.5) / count;
-    lobes.push_back({around(cap.axis, cos_theta, kGoldenAngle * k), sharpness, -1.0});
+    lobes.push_back({cap_point(cap, k, count), sharpness, -1.0});
   }
   return lobes;
 }

@@ -22,10 +22,13 @@ struct Cap {
 };
 Cap cap_of(std::span<const Vec3> directions);
 
+// Point k of `count` spread evenly over the cap (Fibonacci's; Swinbank and Purser 2006).
+Vec3 cap_point(const Cap& cap, int k, int count);
+
 // The angle that is typical of neighbours among count points spread evenly over the cap; at least 1e-3.
 double spacing(const Cap& cap, std::size_t count);
 
-// count lobes at Fibonacci's points on the cap (Swinbank and Purser 2006), without cut-off short of the
+// count lobes at the cap's points, without cut-off short of the
 // opposite pole, each `overlap` of its peak at the distance of a neighbour. count in [1, kMaxLobes], overlap
 // in (0, 1). Throws std::invalid_argument outside of them.
 LobeSet uniform_lobes(int count, const Cap& cap, double overlap = 0.6);

@@ -1,3 +1,4 @@
+// Choices of texels, errors of renders.
 #include "bake/luminance.h"
 
 #include <cmath>

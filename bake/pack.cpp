@@ -1,3 +1,4 @@
+// Codes into bytes and back.
 #include "bake/pack.h"
 
 #include <bit>

@@ -1,3 +1,4 @@
+// Chunks handed to the vector code, and the state of each texel.
 #include "bake/photometric_stereo.h"
 
 #include <tbb/blocked_range.h>

@@ -1,3 +1,4 @@
+// The stages of planning in their order, and a block baked by a plan.
 #include "bake/plan.h"
 
 #include <fmt/format.h>
@@ -19,12 +20,6 @@ using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) {
   return std::chrono::duration<double>(Clock::now() - start).count();
-}
-
-std::vector<Vec3> directions_of(const StackInfo& info) {
-  std::vector<Vec3> directions;
-  for (const StackLight& light : info.lights) directions.push_back(light.direction);
-  return directions;
 }
 
 std::vector<float> shades_of(const StackInfo& info, const TexelBlock& block, const Surface& surface) {

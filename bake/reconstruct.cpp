@@ -1,3 +1,4 @@
+// A light from anywhere on baked texels.
 #include "bake/reconstruct.h"
 
 #include <algorithm>

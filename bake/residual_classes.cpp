@@ -1,3 +1,4 @@
+// Texels grouped by modulation, and the covariance of each group.
 #include "bake/residual_classes.h"
 
 #include <Eigen/Eigenvalues>

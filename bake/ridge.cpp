@@ -1,3 +1,4 @@
+// Ridges tried on a grid.
 #include "bake/ridge.h"
 
 #include <cmath>

@@ -1,3 +1,4 @@
+// Variable projection: Ceres moves what texels share, base colours follow.
 #include "bake/shared_material.h"
 
 #include <tbb/parallel_for.h>

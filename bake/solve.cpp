@@ -1,3 +1,4 @@
+// What texels share, prepared for the vector code; one texel in double precision.
 #include "bake/solve.h"
 
 #include <tbb/blocked_range.h>

@@ -1,3 +1,4 @@
+// Checks of a sample, each with its sentence.
 #include "bake/solve_warnings.h"
 
 #include <fmt/format.h>

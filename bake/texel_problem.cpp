@@ -1,13 +1,14 @@
+// Residuals and modulations of blocks.
 #include "bake/texel_problem.h"
 
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 
+#include "bake/luminance.h"
+
 namespace brdfit::bake {
 namespace {
-
-constexpr Rgb kLuminance = {0.2126, 0.7152, 0.0722};
 
 void check(const StackInfo& info, const TexelBlock& block, const BlockRender& render) {
   const std::size_t planes = block.lights * block.count();

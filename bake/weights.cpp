@@ -1,3 +1,4 @@
+// Weights from noise, saturation and maps.
 #include "bake/weights.h"
 
 #include <algorithm>

@@ -24,6 +24,11 @@ struct Lobe {
 
 using LobeSet = std::vector<Lobe>;
 
+// Codes of amplitudes are whole numbers from minus this to this.
+constexpr int realis_largest_code(int bits) {
+  return (1 << (bits - 1)) - 1;
+}
+
 // The lobe's value for a light in that direction (unit, towards the light), in [0, 1].
 inline double eval(const Lobe& lobe, const Vec3& direction) {
   const double cos_axis = lobe.axis.x * direction.x + lobe.axis.y * direction.y + lobe.axis.z * direction.z;

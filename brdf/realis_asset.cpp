@@ -1,3 +1,4 @@
+// Names, sizes and checks of baked assets.
 #include "brdf/realis_asset.h"
 
 #include <array>

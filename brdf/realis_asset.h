@@ -29,7 +29,7 @@ struct RealisPacking {
   int dominant = 0;  // amplitudes kept per texel and channel; as many as lobes: all
   // Amplitude of the largest code per plane (lobes, for kRgb [lobe][channel]): the precision multipliers.
   std::vector<double> precision;
-  int largest_code() const { return (1 << (bits - 1)) - 1; }
+  int largest_code() const { return realis_largest_code(bits); }
 };
 
 // Where the correction ends: the distance in linear albedo and the angle between normals at which it is gone.

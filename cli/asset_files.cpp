@@ -1,3 +1,4 @@
+// Textures of an asset, each by its own writer or reader.
 #include "cli/asset_files.h"
 
 #include <fmt/format.h>
@@ -7,6 +8,7 @@
 #include <optional>
 #include <utility>
 
+#include "brdf/kernel/realis.h"
 #include "io/image_reader.h"
 #include "io/material_json.h"
 #include "io/png_rows.h"
@@ -193,8 +195,9 @@ std::vector<float> AssetReader::State::read_amplitudes(int first_row, int rows) 
   const std::vector<int> whole = bake::unpack(layout_of(asset), texels, count);
   std::vector<float> out(whole.size());
   for (std::size_t k = 0; k < whole.size(); ++k) {
-    out[k] = static_cast<float>(static_cast<double>(whole[k]) / asset.packing.largest_code() *
-                                asset.packing.precision[k / count]);
+    out[k] = static_cast<float>(kernel::realis_amplitude(static_cast<double>(whole[k]),
+                                                         static_cast<double>(asset.packing.largest_code()),
+                                                         asset.packing.precision[k / count]));
   }
   return out;
 }

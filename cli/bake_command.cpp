@@ -33,13 +33,6 @@ std::vector<std::uint32_t> sample_of(const StackInfo& info, std::size_t count) {
   return sample;
 }
 
-// "lion" of lion.olat.json, which is "lion.olat" without its ending.
-std::string name_of_stack(std::string name) {
-  constexpr std::string_view kOlat = ".olat";
-  if (name.size() > kOlat.size() && name.ends_with(kOlat)) name.resize(name.size() - kOlat.size());
-  return name;
-}
-
 io::FileStack open_stack(const BakeArguments& a) {
   io::FileStackOptions options;
   if (!a.transfer.empty()) {
@@ -57,7 +50,7 @@ class Bake {
  public:
   Bake(const BakeArguments& a, std::string command_line)
       : a_(a), settings_(bake_settings_of(a)), command_line_(std::move(command_line)), stack_(open_stack(a)) {
-    asset_.name = a.name.empty() ? name_of_stack(stack_.info().name) : a.name;
+    asset_.name = a.name.empty() ? stack_.info().name : a.name;
     json_file_ = std::filesystem::path(a.output) / (asset_.name + ".realis.json");
     prepare_output(json_file_, a.common.force);
   }
@@ -77,9 +70,9 @@ class Bake {
     Stopwatch reading;
     sample_ = stack_.read_texels(sample_of(stack_.info(), static_cast<std::size_t>(a_.sample_texels)));
     seconds_["decode_sample"] = reading.seconds();
-    Stopwatch planning;
     plan_ = bake::plan_bake(stack_.info(), sample_, bake::all_lights(stack_.info()), settings_);
-    seconds_["plan"] = planning.seconds();
+    seconds_["plan_base"] = plan_.timings.base_seconds;
+    seconds_["plan_lobes"] = plan_.timings.lobes_seconds;
   }
 
   void weigh() {
@@ -190,11 +183,12 @@ class Bake {
       if (interrupted()) throw std::runtime_error("interrupted; nothing is written");
       const int rows = std::min(strip, height - row);
       Stopwatch watch;
-      const TexelBlock block = stack_.read_rows(row, rows);
+      TexelBlock block = stack_.read_rows(row, rows);
       decoding += watch.seconds();
       watch = Stopwatch();
       const AssetRows out = rows_of(block);
       solving += watch.seconds();
+      stack_.give_back(std::move(block));
       writer.write(out, rows);
       progress.step("rows");
     }

@@ -1,3 +1,4 @@
+// Tables and JSON of what a bake found.
 #include "cli/bake_evidence.h"
 
 #include <fmt/format.h>

@@ -1,3 +1,4 @@
+// The options of bake, and what they ask for.
 #include "cli/bake_options.h"
 
 #include <fmt/format.h>

@@ -24,6 +24,7 @@ namespace {
 constexpr std::size_t kCheckedTriples = 3000;
 constexpr float kLitShare = 0.05F;  // of a texel's largest value
 constexpr std::array<int, 2> kLobeCounts = {4, 8};
+constexpr bake::Cap kHemisphere = {{0.0, 0.0, 1.0}, std::numbers::pi / 2.0};
 
 // How many lights reach a texel, from the pictures themselves, so that cast shadows count.
 struct Coverage {
@@ -87,8 +88,8 @@ Description examine(io::FileStack& stack) {
   }
   const TexelBlock sample = stack.read_texels(bake::light_check_texels(info, kCheckedTriples));
   result.check = bake::check_lights(info, sample);
+  result.directions = directions_of(info);
   for (const StackLight& light : info.lights) {
-    result.directions.push_back(light.direction);
     const double height = std::asin(std::clamp(light.direction.z, -1.0, 1.0)) * 180.0 / std::numbers::pi;
     result.lowest_deg = std::min(result.lowest_deg, height);
     result.highest_deg = std::max(result.highest_deg, height);
@@ -236,13 +237,8 @@ std::optional<double> lobe_condition(int lobes, std::span<const Vec3> directions
   if (directions.size() < static_cast<std::size_t>(lobes)) return {};
   LobeSet set;
   for (int k = 0; k < lobes; ++k) {
-    constexpr double kGoldenAngle = 2.399963229728653;
-    const double z = 1.0 - (k + 0.5) / lobes;
-    const double r = std::sqrt(1.0 - z * z);
     // A lobe's share of the hemisphere is a cap of height 1 / lobes, at whose rim it is half as high.
-    set.push_back({{r * std::cos(k * kGoldenAngle), r * std::sin(k * kGoldenAngle), z},
-                   std::numbers::ln2 * lobes,
-                   -1.0});
+    set.push_back({bake::cap_point(kHemisphere, k, lobes), std::numbers::ln2 * lobes, -1.0});
   }
   const Eigen::MatrixXd values = bake::lobe_values(set, directions);
   const Eigen::VectorXd singular = Eigen::JacobiSVD<Eigen::MatrixXd>(values).singularValues();

@@ -53,15 +53,11 @@ void advance(const Problem& problem, Search& search, const Box& box, const Desce
   search.solution.evaluations += evaluations;
 }
 
-// Everything at once, and again from off the plateau if that is where it ends.
+// Everything at once.
 void advance_all(const Problem& problem, Search& search) {
   leave_plateau(problem.parametrisation(), search.solution.x);
-  advance(problem, search, search.box, kJoint);
-  Search other = search;
-  if (!leave_plateau(problem.parametrisation(), other.solution.x)) return;
-  advance(problem, other, other.box, kJoint);
-  search.solution.evaluations = other.solution.evaluations;
-  if (other.solution.cost < search.solution.cost) search = other;
+  descend_past_plateau(problem.parametrisation(), search,
+                       [&](Search& each) { advance(problem, each, each.box, kJoint); });
 }
 
 // Moves some numbers and holds the others.

@@ -109,14 +109,10 @@ std::vector<std::size_t> distinct_costs(const std::vector<Candidate>& candidates
   return picked;
 }
 
-// To the bottom of the valley; and again from off the second lobe's plateau, if that is where it ends.
+// To the bottom of the valley.
 void advance_to_bottom(const Problem& problem, Candidate& candidate) {
-  advance(problem, candidate, candidate.box, kPolish);
-  Candidate other = candidate;
-  if (!leave_plateau(problem.parametrisation(), other.solution.x)) return;
-  advance(problem, other, other.box, kPolish);
-  candidate.solution.evaluations = other.solution.evaluations;
-  if (other.solution.cost < candidate.solution.cost) candidate = other;
+  descend_past_plateau(problem.parametrisation(), candidate,
+                       [&](Candidate& each) { advance(problem, each, each.box, kPolish); });
 }
 
 // Brings the best candidates to the bottom of their valleys, so that they can be told apart.

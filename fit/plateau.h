@@ -13,6 +13,18 @@ namespace brdfit::fit {
 // beyond; false where roughness or scale is not free.
 bool leave_plateau(const Parametrisation& parametrisation, std::vector<double>& x);
 
+// Descends; and again from off the plateau if that is where it ends. The better end is kept, and both are
+// paid for. state: has a Solution `solution`. descend(state): moves it.
+template <class State, class Descend>
+void descend_past_plateau(const Parametrisation& parametrisation, State& state, Descend&& descend) {
+  descend(state);
+  State other = state;
+  if (!leave_plateau(parametrisation, other.solution.x)) return;
+  descend(other);
+  state.solution.evaluations = other.solution.evaluations;
+  if (other.solution.cost < state.solution.cost) state = other;
+}
+
 }  // namespace brdfit::fit
 
 #endif  // BRDFIT_FIT_PLATEAU_H_

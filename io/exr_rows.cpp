@@ -1,3 +1,4 @@
+// Runs of rows through OpenEXR.
 #include "io/exr_rows.h"
 
 #include <ImfChannelList.h>

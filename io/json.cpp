@@ -185,6 +185,18 @@ std::string ObjectReader::string(std::string_view key, std::string_view fallback
   return has(key) ? string(key) : std::string(fallback);
 }
 
+bool ObjectReader::boolean(std::string_view key) {
+  if (!has(key)) fail(key, "is missing", "true or false");
+  const Json& value = member(key);
+  if (!value.is_boolean()) fail(key, describe(value), "true or false");
+  return value.get<bool>();
+}
+
+bool ObjectReader::boolean(std::string_view key, bool fallback) {
+  known_.emplace_back(key);
+  return has(key) ? boolean(key) : fallback;
+}
+
 std::vector<std::string> ObjectReader::strings(std::string_view key) {
   if (!has(key)) fail(key, "is missing", "an array of strings");
   const Json& value = member(key);
@@ -193,6 +205,16 @@ std::vector<std::string> ObjectReader::strings(std::string_view key) {
   if (!is_fit)
     fail(key, value.is_array() ? "holds more than strings" : describe(value), "an array of strings");
   return value.get<std::vector<std::string>>();
+}
+
+std::vector<double> ObjectReader::numbers(std::string_view key) {
+  if (!has(key)) fail(key, "is missing", "an array of numbers");
+  const Json& value = member(key);
+  const bool is_fit = value.is_array() && std::all_of(value.begin(), value.end(),
+                                                      [](const Json& item) { return item.is_number(); });
+  if (!is_fit)
+    fail(key, value.is_array() ? "holds more than numbers" : describe(value), "an array of numbers");
+  return value.get<std::vector<double>>();
 }
 
 const Json& ObjectReader::member(std::string_view key) {

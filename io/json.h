@@ -39,7 +39,10 @@ class ObjectReader {
   long long integer(std::string_view key, long long lower, long long upper, long long fallback);
   std::string string(std::string_view key);
   std::string string(std::string_view key, std::string_view fallback);
+  bool boolean(std::string_view key);
+  bool boolean(std::string_view key, bool fallback);
   std::vector<std::string> strings(std::string_view key);  // an array of strings
+  std::vector<double> numbers(std::string_view key);       // an array of numbers
   const Json& member(std::string_view key);                // anything
   ObjectReader object(std::string_view key);
 

@@ -55,7 +55,9 @@ class Manifest {
   StackSource read() {
     StackSource source;
     source.file = file_;
-    source.name = file_.stem().string();
+    // lion of lion.olat.json too.
+    const fs::path stem = file_.stem();
+    source.name = (stem.extension() == ".olat" ? stem.stem() : stem).string();
     root_.integer("version", 1, 1);
     read_images(source);
     source.dark = optional_file("dark", "the dark frame");

@@ -1,3 +1,4 @@
+// Runs of rows through libpng.
 #include "io/png_rows.h"
 
 #include <png.h>

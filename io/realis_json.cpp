@@ -1,3 +1,4 @@
+// Members of an asset's JSON, both ways.
 #include "io/realis_json.h"
 
 #include <fmt/format.h>
@@ -30,40 +31,10 @@ constexpr std::array<std::pair<std::string_view, std::string RealisFiles::*>, 7>
     {"confidence", &RealisFiles::confidence},
 }};
 
-Json vector_json(const Vec3& v) {
-  return Json::array({v.x, v.y, v.z});
-}
-
-std::vector<double> read_numbers(ObjectReader& reader, std::string_view key) {
-  const Json& list = reader.member(key);
-  if (!list.is_array()) reader.fail(key, fmt::format("is {}", list.type_name()), "a list of numbers");
-  std::vector<double> numbers;
-  for (const Json& number : list) {
-    if (!number.is_number()) reader.fail(key, fmt::format("holds {}", number.dump()), "numbers");
-    numbers.push_back(number.get<double>());
-  }
-  return numbers;
-}
-
 Vec3 read_vector(ObjectReader& reader, std::string_view key) {
-  const std::vector<double> numbers = read_numbers(reader, key);
+  const std::vector<double> numbers = reader.numbers(key);
   if (numbers.size() != 3) reader.fail(key, fmt::format("has {} numbers", numbers.size()), "3");
   return {numbers[0], numbers[1], numbers[2]};
-}
-
-bool read_boolean(ObjectReader& reader, std::string_view key) {
-  const Json& value = reader.member(key);
-  if (!value.is_boolean()) reader.fail(key, fmt::format("is {}", value.type_name()), "true or false");
-  return value.get<bool>();
-}
-
-Json lobes_json(const LobeSet& lobes) {
-  Json json = Json::array();
-  for (const Lobe& lobe : lobes) {
-    json.push_back(
-        {{"axis", vector_json(lobe.axis)}, {"sharpness", lobe.sharpness}, {"cos_cut_off", lobe.cos_cut_off}});
-  }
-  return json;
 }
 
 LobeSet read_lobes(ObjectReader& reader, const std::string& file) {
@@ -103,7 +74,7 @@ RealisPacking read_packing(ObjectReader reader) {
   RealisPacking packing;
   packing.bits = static_cast<int>(reader.integer("bits", 4, 8));
   packing.dominant = static_cast<int>(reader.integer("dominant", 0, 64));
-  packing.precision = read_numbers(reader, "precision");
+  packing.precision = reader.numbers("precision");
   reader.number("bytes_per_texel", 0.0, 1e6);
   reader.finish();
   return packing;
@@ -125,6 +96,20 @@ std::optional<Material> read_base(ObjectReader& reader, const std::string& file)
 
 }  // namespace
 
+Json vector_to_json(const Vec3& v) {
+  return Json::array({v.x, v.y, v.z});
+}
+
+Json lobes_to_json(const LobeSet& lobes) {
+  Json json = Json::array();
+  for (const Lobe& lobe : lobes) {
+    json.push_back({{"axis", vector_to_json(lobe.axis)},
+                    {"sharpness", lobe.sharpness},
+                    {"cos_cut_off", lobe.cos_cut_off}});
+  }
+  return json;
+}
+
 Json realis_to_json(const RealisAsset& asset) {
   std::string why;
   if (!asset.is_valid(&why)) throw std::invalid_argument("Realis asset: " + why);
@@ -136,8 +121,8 @@ Json realis_to_json(const RealisAsset& asset) {
   json["colour"] = name_of(asset.colour);
   json["albedo_in_modulation"] = asset.albedo_in_modulation;
   json["frame"] = kFrame;
-  json["view"] = vector_json(asset.view);
-  json["lobes"] = lobes_json(asset.lobes);
+  json["view"] = vector_to_json(asset.view);
+  json["lobes"] = lobes_to_json(asset.lobes);
   json["base"] = asset.base ? material_to_json(*asset.base) : Json(kLambert);
   json["packing"] = {{"bits", asset.packing.bits},
                      {"dominant", asset.packing.dominant},
@@ -162,7 +147,7 @@ RealisAsset realis_from_json(const Json& json, const std::string& file) {
     reader.fail("colour", fmt::format("is \"{}\"", colour), "\"luminance\", \"scaled-chroma\" or \"rgb\"");
   }
   asset.colour = *known;
-  asset.albedo_in_modulation = read_boolean(reader, "albedo_in_modulation");
+  asset.albedo_in_modulation = reader.boolean("albedo_in_modulation");
   if (const std::string frame = reader.string("frame"); frame != kFrame) {
     reader.fail("frame", fmt::format("is \"{}\"", frame), fmt::format("\"{}\"", kFrame));
   }

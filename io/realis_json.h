@@ -15,6 +15,10 @@ namespace brdfit::io {
 // is not valid. See docs/schema/realis.schema.json.
 Json realis_to_json(const RealisAsset& asset);
 
+// Parts of it: [x, y, z], and the array of lobes.
+Json vector_to_json(const Vec3& v);
+Json lobes_to_json(const LobeSet& lobes);
+
 // The inverse. A member "bake" (evidence) is allowed and ignored. Throws IoError (kInput): unknown version or
 // key, a wrong type or range, parts that do not agree.
 RealisAsset realis_from_json(const Json& json, const std::string& file);

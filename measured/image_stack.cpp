@@ -1,3 +1,4 @@
+// Incidence of near lights; the stack in memory.
 #include "measured/image_stack.h"
 
 #include <algorithm>
@@ -49,6 +50,12 @@ Incidence incidence(const StackInfo& info, std::size_t light, std::uint32_t texe
   const double length = std::sqrt(squared);
   return {{towards.x / length, towards.y / length, towards.z / length},
           squared_length(minus(*source.position, centre)) / squared};
+}
+
+std::vector<Vec3> directions_of(const StackInfo& info) {
+  std::vector<Vec3> directions;
+  for (const StackLight& light : info.lights) directions.push_back(light.direction);
+  return directions;
 }
 
 bool has_near_lights(const StackInfo& info) {

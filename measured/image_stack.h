@@ -53,6 +53,8 @@ struct Incidence {
   double falloff = 1.0;
 };
 Incidence incidence(const StackInfo& info, std::size_t light, std::uint32_t texel);
+// Of all lights, in their order; of near ones as seen from the picture's centre.
+std::vector<Vec3> directions_of(const StackInfo& info);
 // Whether any light is near, that is whether directions differ between texels.
 bool has_near_lights(const StackInfo& info);
 

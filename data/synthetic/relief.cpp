@@ -1,3 +1,4 @@
+// Waves, spheres and planes, and their shadows.
 #include "data/synthetic/relief.h"
 
 #include <algorithm>
@@ -13,13 +14,6 @@ constexpr double kTurn = 2.0 * std::numbers::pi;
 constexpr int kWaves = 6;
 
 }  // namespace
-
-Vec3 cap_point(int k, int count, double cos_edge) {
-  const double cos_theta = 1.0 - (k + 0.5) / count * (1.0 - cos_edge);
-  const double sin_theta = std::sqrt(std::max(0.0, 1.0 - cos_theta * cos_theta));
-  const double phi_rad = kTurn * k * (std::numbers::phi - 1.0);
-  return {sin_theta * std::cos(phi_rad), sin_theta * std::sin(phi_rad), cos_theta};
-}
 
 double smooth_wave(double x, double y, double wavelength_px, const CounterRandom& random,
                    std::size_t number) {

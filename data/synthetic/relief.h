@@ -13,9 +13,6 @@
 
 namespace brdfit::synthetic {
 
-// Point k of `count` spread evenly (Fibonacci) over the cap of directions whose z is at least cos_edge.
-Vec3 cap_point(int k, int count, double cos_edge);
-
 // A smooth function of the pixel in [-1, 1], another for each `number`: a product of waves of random
 // directions.
 double smooth_wave(double x, double y, double wavelength_px, const CounterRandom& random, std::size_t number);

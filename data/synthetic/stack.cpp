@@ -11,6 +11,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "bake/lobes.h"
 #include "brdf/models.h"
 #include "data/synthetic/counter_random.h"
 #include "data/synthetic/relief.h"
@@ -33,11 +34,14 @@ Vec3 from_angles(double theta_rad, double phi_rad) {
           std::cos(theta_rad)};
 }
 
+bake::Cap cap_of(const LightsRecipe& lights) {
+  return {{0.0, 0.0, 1.0}, lights.theta_deg * kDegree};
+}
+
 Vec3 light_direction(const LightsRecipe& lights, int k, std::uint64_t seed) {
-  const double cos_edge = std::cos(lights.theta_deg * kDegree);
   switch (lights.arrangement) {
     case Arrangement::kDome:
-      return cap_point(k, lights.count, cos_edge);
+      return bake::cap_point(cap_of(lights), k, lights.count);
     case Arrangement::kRing:
       return from_angles(lights.theta_deg * kDegree, 2.0 * std::numbers::pi * k / lights.count);
     case Arrangement::kSparse:
@@ -45,7 +49,7 @@ Vec3 light_direction(const LightsRecipe& lights, int k, std::uint64_t seed) {
   }
   const CounterRandom random(seed, kLightStream);
   const auto counter = static_cast<std::uint64_t>(2 * k);
-  const double cos_theta = 1.0 - random.uniform(counter) * (1.0 - cos_edge);
+  const double cos_theta = 1.0 - random.uniform(counter) * (1.0 - std::cos(lights.theta_deg * kDegree));
   return from_angles(std::acos(cos_theta), 2.0 * std::numbers::pi * random.uniform(counter + 1));
 }
 
@@ -86,10 +90,9 @@ std::vector<StackLight> as_in_manifest(std::vector<StackLight> lights, const Sta
 
 LobeSet lobes_of(const StackRecipe& recipe) {
   LobeSet lobes;
-  const double cos_edge = std::cos(recipe.lights.theta_deg * kDegree);
   for (int k = 0; k < recipe.residual.lobes; ++k) {
-    lobes.push_back({cap_point(k, recipe.residual.lobes, cos_edge), recipe.residual.sharpness,
-                     std::cos(recipe.residual.cut_off_deg * kDegree)});
+    lobes.push_back({bake::cap_point(cap_of(recipe.lights), k, recipe.residual.lobes),
+                     recipe.residual.sharpness, std::cos(recipe.residual.cut_off_deg * kDegree)});
   }
   return lobes;
 }

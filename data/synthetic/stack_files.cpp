@@ -1,3 +1,4 @@
+// Photographs in the encoding asked for, the manifest last.
 #include "data/synthetic/stack_files.h"
 
 #include <fmt/format.h>
@@ -11,6 +12,7 @@
 #include "io/image_file.h"
 #include "io/image_reader.h"
 #include "io/png_rows.h"
+#include "io/realis_json.h"
 #include "io/transfer.h"
 
 namespace brdfit::synthetic {
@@ -57,10 +59,6 @@ void write_photograph(const StackRecipe& recipe, const SyntheticStack& stack, st
       {depth_of(recipe.files.format), kJpegQuality, {}});
 }
 
-io::Json vector_json(const Vec3& v) {
-  return io::Json::array({v.x, v.y, v.z});
-}
-
 io::Json manifest_of(const StackRecipe& recipe, const StackInfo& info) {
   io::Json json;
   json["version"] = 1;
@@ -68,9 +66,9 @@ io::Json manifest_of(const StackRecipe& recipe, const StackInfo& info) {
   for (const StackLight& light : info.lights) {
     io::Json image = {{"file", light.name}, {"intensity", light.intensity}};
     if (light.position) {
-      image["position"] = vector_json(*light.position);
+      image["position"] = io::vector_to_json(*light.position);
     } else {
-      image["direction"] = vector_json(light.direction);
+      image["direction"] = io::vector_to_json(light.direction);
     }
     json["images"].push_back(std::move(image));
   }
@@ -80,7 +78,7 @@ io::Json manifest_of(const StackRecipe& recipe, const StackInfo& info) {
   if (recipe.files.give_albedo) json["albedo"] = recipe.name + ".albedo.exr";
   if (has_near_lights(info)) {
     json["pixel_size"] = info.plane.pixel_size;
-    json["origin"] = vector_json(info.plane.origin);
+    json["origin"] = io::vector_to_json(info.plane.origin);
     json["units"] = "picture widths";
   }
   return json;
@@ -124,21 +122,12 @@ void write_mask(const fs::path& file, const SyntheticStack& stack) {
   writer.commit();
 }
 
-std::vector<std::string> lobe_channels(std::size_t lobes) {
-  std::vector<std::string> names;
-  for (std::size_t k = 0; k < lobes; ++k) names.push_back(fmt::format("lobe{:02}.Y", k));
-  return names;
-}
-
 void write_residual(const StackRecipe& recipe, const SyntheticStack& stack, const fs::path& folder) {
-  write_truth(folder / (recipe.name + ".amplitudes.exr"), stack.info(), lobe_channels(stack.lobes().size()),
+  RealisAsset truth;  // for the names of its channels
+  truth.lobes = stack.lobes();
+  write_truth(folder / (recipe.name + ".amplitudes.exr"), stack.info(), realis_channel_names(truth),
               [&](std::uint32_t texel, std::size_t lobe) { return stack.amplitude(texel, lobe); });
-  io::Json lobes = io::Json::array();
-  for (const Lobe& lobe : stack.lobes()) {
-    lobes.push_back(
-        {{"axis", vector_json(lobe.axis)}, {"sharpness", lobe.sharpness}, {"cos_cut_off", lobe.cos_cut_off}});
-  }
-  io::write_json(folder / (recipe.name + ".truth.json"), {{"lobes", lobes}});
+  io::write_json(folder / (recipe.name + ".truth.json"), {{"lobes", io::lobes_to_json(stack.lobes())}});
 }
 
 }  // namespace

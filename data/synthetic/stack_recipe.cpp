@@ -36,13 +36,6 @@ int choice(io::ObjectReader& reader, std::string_view key, const std::array<std:
   reader.fail(key, fmt::format("is \"{}\"", found), fmt::format("one of \"{}\"", fmt::join(names, "\", \"")));
 }
 
-bool boolean(io::ObjectReader& reader, std::string_view key, bool fallback) {
-  if (!reader.has(key)) return fallback;
-  const io::Json& value = reader.member(key);
-  if (!value.is_boolean()) reader.fail(key, fmt::format("is {}", value.type_name()), "true or false");
-  return value.get<bool>();
-}
-
 ShapeRecipe read_shape(io::ObjectReader reader) {
   ShapeRecipe shape;
   shape.relief = static_cast<Relief>(choice(reader, "relief", kReliefs, static_cast<int>(shape.relief)));
@@ -100,7 +93,7 @@ StackFaults read_faults(io::ObjectReader reader) {
   for (const auto& [first, second] : read_pairs(reader, "swapped", true)) {
     faults.swapped.emplace_back(first, static_cast<int>(second));
   }
-  faults.upside_down = boolean(reader, "upside_down", faults.upside_down);
+  faults.upside_down = reader.boolean("upside_down", faults.upside_down);
   faults.hot_pixels = static_cast<int>(reader.integer("hot_pixels", 0, kMaxHotPixels, faults.hot_pixels));
   reader.finish();
   return faults;
@@ -111,8 +104,8 @@ StackFiles read_files(io::ObjectReader reader) {
   files.format = reader.string("format", files.format);
   files.transfer = reader.string("transfer", files.transfer);
   files.manifest = reader.string("manifest", files.manifest);
-  files.give_normals = boolean(reader, "give_normals", files.give_normals);
-  files.give_albedo = boolean(reader, "give_albedo", files.give_albedo);
+  files.give_normals = reader.boolean("give_normals", files.give_normals);
+  files.give_albedo = reader.boolean("give_albedo", files.give_albedo);
   reader.finish();
   return files;
 }
@@ -248,7 +241,7 @@ StackRecipe stack_recipe_from_json(const io::Json& json, const std::string& file
   recipe.patch_px = static_cast<int>(reader.integer("patch_px", 0, kMaxEdge, recipe.patch_px));
   recipe.albedo_variation = reader.number("albedo_variation", 0.0, 1.0, recipe.albedo_variation);
   if (reader.has("lights")) recipe.lights = read_lights(reader.object("lights"));
-  recipe.cast_shadows = boolean(reader, "cast_shadows", recipe.cast_shadows);
+  recipe.cast_shadows = reader.boolean("cast_shadows", recipe.cast_shadows);
   if (reader.has("residual")) recipe.residual = read_residual(reader.object("residual"));
   if (reader.has("noise")) recipe.noise = read_noise(reader.object("noise"));
   if (reader.has("faults")) recipe.faults = read_faults(reader.object("faults"));
