@@ -100,6 +100,12 @@ std::vector<TexelProblem> problems_of(const StackInfo& info, const TexelBlock& b
   return problems;
 }
 
+// The least that would have been baked.
+std::size_t lobes_asked_for(const BakeSettings& settings) {
+  if (settings.given_lobes) return settings.given_lobes->size();
+  return static_cast<std::size_t>(settings.lobes == 0 ? kLobeCounts.front() : settings.lobes);
+}
+
 }  // namespace
 
 void plan_lobes(BakePlan& plan, const StackInfo& info, const TexelBlock& sample,
@@ -133,11 +139,13 @@ void plan_lobes(BakePlan& plan, const StackInfo& info, const TexelBlock& sample,
     if (!choice.lobes.empty())
       plan.system.emplace(choice.lobes, directions, choice.squared_modulation, choice.ridge);
   }
-  if (plan.system) {
-    plan.warnings = solve_warnings(*plan.system, problem);
-  } else {
-    plan.warnings = {{"no-lobes-help",
-                      "no lobes lower the error under lights that they have not seen: nothing is corrected"}};
+  const std::size_t lobes = plan.system ? plan.system->lobes().size() : lobes_asked_for(settings);
+  const LobeSystem* system = plan.system ? &*plan.system : nullptr;
+  plan.warnings = solve_warnings(directions, lobes, system, problem);
+  if (!plan.system) {
+    plan.warnings.push_back(
+        {"no-lobes-help",
+         "no lobes lower the error under lights that they have not seen: nothing is corrected"});
   }
 }
 

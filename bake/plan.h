@@ -58,7 +58,7 @@ struct BakePlan {
   std::vector<BaseCandidate> candidates;   // that were compared; empty where the base was given
   std::optional<LobeSystem> system;        // nothing where no lobes help
   std::optional<LobeChoice> lobe_choice;   // what was compared; nothing where lobes were given
-  std::vector<SolveWarning> warnings;      // what makes the stack hard, by name
+  std::vector<SolveWarning> warnings;      // what makes the lobes hard to solve for, by name
   PlanTimings timings;
 };
 

@@ -9,9 +9,9 @@
 namespace brdfit::bake {
 namespace {
 
-constexpr double kFirstExponent = -5.0;
-constexpr double kLastExponent = 4.0;
-constexpr double kStep = 0.5;
+// Decades that are tried; then half a decade to each side of the best.
+constexpr int kFirstDecade = -8;
+constexpr int kLastDecade = 4;
 
 }  // namespace
 
@@ -20,7 +20,8 @@ RidgeChoice choose_ridge(const LobeSet& lobes, std::span<const Vec3> directions,
   const std::vector<double> squared = mean_squared_modulation(problem);
   RidgeChoice best;
   best.error = std::numeric_limits<double>::infinity();
-  for (double exponent = kFirstExponent; exponent <= kLastExponent; exponent += kStep) {
+  double best_exponent = kLastDecade;
+  const auto attempt = [&](double exponent) {
     const LobeSystem system(lobes, directions, squared, std::pow(10.0, exponent));
     const SolveResult result = solve(system, problem);
     double error = 0.0;
@@ -29,8 +30,13 @@ RidgeChoice choose_ridge(const LobeSet& lobes, std::span<const Vec3> directions,
       error += result.error_with[i];
       without += result.error_without[i];
     }
-    if (error < best.error) best = {system.ridge(), error, without};
-  }
+    if (error >= best.error) return;
+    best = {system.ridge(), error, without};
+    best_exponent = exponent;
+  };
+  for (int decade = kFirstDecade; decade <= kLastDecade; ++decade) attempt(decade);
+  const double centre = best_exponent;
+  for (const double exponent : {centre - 0.5, centre + 0.5}) attempt(exponent);
   return best;
 }
 

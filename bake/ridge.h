@@ -18,9 +18,10 @@ struct RidgeChoice {
   bool helps() const { return error < error_without; }
 };
 
-// The ridge of a logarithmic grid from 1e-5 to 1e4 (where lobes are as good as absent) whose leave-one-out
-// error over the problem's texels is least. All texels count with their lobes: to count those that lobes do
-// not help as if they had none flatters small ridges. problem: a sample of an asset's texels.
+// The ridge of those tried, decades from 1e-8 to 1e4 (where lobes are as good as absent) and half a decade to
+// each side of the best, whose leave-one-out error over the problem's texels is least. All texels count with
+// their lobes: to count those that lobes do not help as if they had none flatters small ridges. problem: a
+// sample of an asset's texels.
 RidgeChoice choose_ridge(const LobeSet& lobes, std::span<const Vec3> directions, const TexelProblem& problem);
 
 }  // namespace brdfit::bake

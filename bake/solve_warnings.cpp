@@ -15,7 +15,7 @@ constexpr double kManyTexels = 0.01;
 // Directions closer than this (the distance's square) are one.
 constexpr double kSameDirection = 1e-12;
 
-std::size_t coincident_lights(const std::vector<Vec3>& directions) {
+std::size_t coincident_lights(std::span<const Vec3> directions) {
   std::size_t count = 0;
   for (std::size_t l = 0; l < directions.size(); ++l) {
     for (std::size_t other = 0; other < l; ++other) {
@@ -53,9 +53,9 @@ Lit count_lit(const TexelProblem& problem, std::size_t lobes) {
 
 }  // namespace
 
-std::vector<SolveWarning> solve_warnings(const LobeSystem& system, const TexelProblem& problem) {
-  const std::size_t lights = system.directions().size();
-  const std::size_t lobes = system.lobes().size();
+std::vector<SolveWarning> solve_warnings(std::span<const Vec3> directions, std::size_t lobes,
+                                         const LobeSystem* system, const TexelProblem& problem) {
+  const std::size_t lights = directions.size();
   if (problem.lights != lights) throw std::invalid_argument("solve_warnings: the problem has other lights");
   std::vector<SolveWarning> warnings;
   const auto warn = [&](const char* name, std::string message) {
@@ -65,21 +65,21 @@ std::vector<SolveWarning> solve_warnings(const LobeSystem& system, const TexelPr
     warn("fewer-lights-than-lobes",
          fmt::format("{} lights cannot determine {} lobes: the ridge decides the rest", lights, lobes));
   }
-  const double degrees = cap_of(system.directions()).angle * 180.0 / std::numbers::pi;
+  const double degrees = cap_of(directions).angle * 180.0 / std::numbers::pi;
   if (degrees < kNarrowDegrees) {
     warn("narrow-lights",
          fmt::format("all lights lie within {:.1f} degrees of their mean: lobes know nothing beyond",
                      degrees));
   }
-  if (const std::size_t twice = coincident_lights(system.directions()); twice > 0) {
+  if (const std::size_t twice = coincident_lights(directions); twice > 0) {
     warn("coincident-lights", fmt::format("{} lights have the direction of another", twice));
   }
-  if (system.condition() >= kHighCondition) {
+  if (system != nullptr && system->condition() >= kHighCondition) {
     warn("coincident-lobes",
          fmt::format(
              "under these lights lobes are nearly the same (condition {:.1e}): amplitudes depend on the "
              "ridge and lose accuracy in few bits",
-             system.condition()));
+             system->condition()));
   }
   const Lit lit = count_lit(problem, lobes);
   if (problem.texels > 0 &&
@@ -89,7 +89,7 @@ std::vector<SolveWarning> solve_warnings(const LobeSystem& system, const TexelPr
                      100.0 * static_cast<double>(lit.by_few) / static_cast<double>(problem.texels)));
   }
   if (lit.by_none > 0) {
-    warn("black-texels", fmt::format("{} of {} texels are reached by no light: they get no lobes",
+    warn("unlit-texels", fmt::format("{} of {} texels are reached by no light: they get no lobes",
                                      lit.by_none, problem.texels));
   }
   return warnings;

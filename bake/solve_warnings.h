@@ -2,6 +2,8 @@
 #ifndef BRDFIT_BAKE_SOLVE_WARNINGS_H_
 #define BRDFIT_BAKE_SOLVE_WARNINGS_H_
 
+#include <cstddef>
+#include <span>
 #include <string>
 #include <vector>
 
@@ -22,9 +24,12 @@ struct SolveWarning {
 // - coincident-lights: some directions are given twice.
 // - coincident-lobes: the lobes' Gram matrix without ridge has a condition of 1e5 or more.
 // - few-lights-per-texel: 1% of the texels or more are lit by fewer lights than there are lobes.
-// - black-texels: texels that no light reaches.
-// problem: a sample of the asset's texels. Throws std::invalid_argument if it has not the system's lights.
-std::vector<SolveWarning> solve_warnings(const LobeSystem& system, const TexelProblem& problem);
+// - unlit-texels: texels that no light reaches.
+// directions: of the lights. lobes: how many there are or were asked for. system: null where no lobes are
+// baked; it alone tells whether lobes coincide. problem: a sample of the asset's texels. Throws
+// std::invalid_argument if it has not as many lights.
+std::vector<SolveWarning> solve_warnings(std::span<const Vec3> directions, std::size_t lobes,
+                                         const LobeSystem* system, const TexelProblem& problem);
 
 }  // namespace brdfit::bake
 

@@ -4,6 +4,7 @@
 #include <algorithm>
 #include <map>
 
+#include "bake/capture_warnings.h"
 #include "bake/compress_block.h"
 #include "cli/asset_files.h"
 #include "cli/bake_evidence.h"
@@ -71,8 +72,15 @@ class Bake {
     sample_ = stack_.read_texels(sample_of(stack_.info(), static_cast<std::size_t>(a_.sample_texels)));
     seconds_["decode_sample"] = reading.seconds();
     plan_ = bake::plan_bake(stack_.info(), sample_, bake::all_lights(stack_.info()), settings_);
+    warn_of_capture();
     seconds_["plan_base"] = plan_.timings.base_seconds;
     seconds_["plan_lobes"] = plan_.timings.lobes_seconds;
+  }
+
+  // What is wrong with the capture comes first: it may explain the rest.
+  void warn_of_capture() {
+    std::vector<bake::SolveWarning> found = bake::capture_warnings(stack_.info(), sample_, settings_.gains);
+    plan_.warnings.insert(plan_.warnings.begin(), found.begin(), found.end());
   }
 
   void weigh() {

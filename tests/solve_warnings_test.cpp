@@ -21,7 +21,7 @@ std::vector<std::string> names(const LobeSet& lobes, const std::vector<Vec3>& di
                                const TexelProblem& problem) {
   const LobeSystem system(lobes, directions, mean_squared_modulation(problem), 0.1);
   std::vector<std::string> found;
-  for (const SolveWarning& warning : solve_warnings(system, problem)) {
+  for (const SolveWarning& warning : solve_warnings(directions, lobes.size(), &system, problem)) {
     EXPECT_FALSE(warning.message.empty());
     found.push_back(warning.name);
   }
@@ -66,7 +66,16 @@ TEST(SolveWarnings, NameTexelsThatFewOrNoLightsReach) {
   for (std::size_t l = 3; l < 50; ++l) problem.modulation[problem.at(l, 0)] = 0.0F;
   EXPECT_THAT(names(lobes, directions, problem), ElementsAre("few-lights-per-texel"));
   for (std::size_t l = 0; l < 3; ++l) problem.modulation[problem.at(l, 0)] = 0.0F;
-  EXPECT_THAT(names(lobes, directions, problem), ElementsAre("black-texels"));
+  EXPECT_THAT(names(lobes, directions, problem), ElementsAre("unlit-texels"));
+}
+
+TEST(SolveWarnings, NameWhatTheyCanWithoutLobes) {
+  const std::vector<Vec3> directions = cap_of_lights(5, 0.17);
+  std::vector<std::string> found;
+  for (const SolveWarning& warning :
+       solve_warnings(directions, 8, nullptr, lit_texels(directions, 50, 0.3, 1)))
+    found.push_back(warning.name);
+  EXPECT_THAT(found, ElementsAre("fewer-lights-than-lobes", "narrow-lights", "few-lights-per-texel"));
 }
 
 }  // namespace
