@@ -198,6 +198,23 @@ TEST_F(Cli, HeldOutErrorsAndTheSizeOfTheSampleAreToldOnRequest) {
   EXPECT_THAT(text, HasSubstr("the last doubling changes it by"));
 }
 
+TEST_F(Cli, ExportsShadersUnderTheirOwnNames) {
+  make_table("soft", Model::kLambertGgx, 5);
+  ASSERT_EQ(run("fit " + quoted("soft.binary") + " --model lambert-ggx --samples 500 -q -o " + quoted("out"))
+                .exit_code,
+            0);
+  const std::string material = quoted("out/soft.lambert-ggx.json");
+  ASSERT_EQ(run("export " + material + " --to glsl --prefix oak -o " + quoted("oak.glsl")).exit_code, 0);
+  EXPECT_THAT(tests::read_text(folder_.path() / "oak.glsl"),
+              HasSubstr("vec3 oak_eval_cos(vec3 wi, vec3 wo) {"));
+  ASSERT_EQ(run("export " + material + " --to hlsl --parameters struct -o " + quoted("oak.hlsl")).exit_code,
+            0);
+  EXPECT_THAT(tests::read_text(folder_.path() / "oak.hlsl"),
+              HasSubstr("float3 brdf_eval_cos(brdf_Material m, float3 wi, float3 wo) {"));
+  EXPECT_EQ(run("export " + material + " --to glsl -o " + quoted("oak.glsl")).exit_code, 2);
+  EXPECT_EQ(run("export " + material + " --to glsl --prefix 2x -o " + quoted("x.glsl")).exit_code, 2);
+}
+
 TEST_F(Cli, AnExportedFitHasTheErrorsThatTheFitPrinted) {
   // A table that no model fits exactly: Callisto's, fitted by all three.
   make_table("soft", Model::kCallisto, 5);
