@@ -1,18 +1,20 @@
-// Dropping lobes and rounding amplitudes of one texel.
+// Solving for and dropping lobes of one texel.
 #include "bake/compress.h"
 
 #include <Eigen/Cholesky>
-#include <algorithm>
-#include <cmath>
 #include <stdexcept>
-
-#include "brdf/kernel/realis.h"
 
 namespace brdfit::bake {
 namespace {
 
 // Below this part of the largest diagonal entry a direction holds no information.
 constexpr double kRankTolerance = 1e-12;
+
+std::uint32_t all_lobes(Eigen::Index count) {
+  return count == 32 ? ~0U : (1U << static_cast<unsigned>(count)) - 1U;
+}
+
+}  // namespace
 
 std::vector<int> lobes_of(std::uint32_t mask, Eigen::Index count) {
   std::vector<int> lobes;
@@ -22,11 +24,6 @@ std::vector<int> lobes_of(std::uint32_t mask, Eigen::Index count) {
   return lobes;
 }
 
-std::uint32_t all_lobes(Eigen::Index count) {
-  return count == 32 ? ~0U : (1U << static_cast<unsigned>(count)) - 1U;
-}
-
-// The equations of some lobes, with just enough added to the diagonal that empty directions stay at 0.
 TexelEquations restricted(const TexelEquations& equations, const std::vector<int>& lobes) {
   const auto count = static_cast<Eigen::Index>(lobes.size());
   TexelEquations out{LobeMatrix(count, count), LobeVector(count)};
@@ -40,8 +37,6 @@ TexelEquations restricted(const TexelEquations& equations, const std::vector<int
   out.a.diagonal().array() += largest > 0.0 ? kRankTolerance * largest : 1.0;
   return out;
 }
-
-}  // namespace
 
 LobeVector solve(const TexelEquations& equations) {
   const std::vector<int> lobes = lobes_of(all_lobes(equations.b.size()), equations.b.size());
@@ -71,72 +66,6 @@ Dominant dominant_lobes(const TexelEquations& equations, int count) {
   }
   for (const int lobe : kept) out.mask |= 1U << static_cast<unsigned>(lobe);
   return out;
-}
-
-double Quantiser::amplitude(int lobe, int code) const {
-  return kernel::realis_amplitude(static_cast<double>(code), static_cast<double>(largest_code()),
-                                  precision[static_cast<std::size_t>(lobe)]);
-}
-
-std::vector<double> precision_per_lobe(std::span<const float> amplitudes, std::size_t lobes,
-                                       double quantile) {
-  if (lobes == 0 || amplitudes.size() % lobes != 0)
-    throw std::invalid_argument("precision_per_lobe: sizes disagree");
-  if (!(quantile > 0.0 && quantile <= 1.0))
-    throw std::invalid_argument("precision_per_lobe: quantile outside (0, 1]");
-  const std::size_t texels = amplitudes.size() / lobes;
-  std::vector<std::uint8_t> used(texels, 0);
-  for (std::size_t k = 0; k < amplitudes.size(); ++k) {
-    if (amplitudes[k] != 0.0F) used[k % texels] = 1;
-  }
-  std::vector<double> precision(lobes, 0.0);
-  std::vector<float> sizes;
-  for (std::size_t lobe = 0; lobe < lobes; ++lobe) {
-    sizes.clear();
-    for (std::size_t texel = 0; texel < texels; ++texel) {
-      if (used[texel] != 0) sizes.push_back(std::abs(amplitudes[lobe * texels + texel]));
-    }
-    if (sizes.empty()) continue;
-    const auto rank =
-        static_cast<std::ptrdiff_t>(std::ceil(quantile * static_cast<double>(sizes.size()))) - 1;
-    std::nth_element(sizes.begin(), sizes.begin() + rank, sizes.end());
-    precision[lobe] = static_cast<double>(sizes[static_cast<std::size_t>(rank)]);
-  }
-  return precision;
-}
-
-std::vector<int> quantise(const TexelEquations& equations, const Quantiser& quantiser, std::uint32_t mask,
-                          std::span<const double> dither) {
-  std::vector<int> codes(static_cast<std::size_t>(equations.b.size()), 0);
-  std::vector<int> kept;
-  for (const int lobe : lobes_of(mask, equations.b.size())) {
-    if (quantiser.precision[static_cast<std::size_t>(lobe)] > 0.0) kept.push_back(lobe);
-  }
-  const TexelEquations part = restricted(equations, kept);
-  const auto factor = part.a.llt();
-  const LobeVector best = factor.solve(part.b);
-  const LobeMatrix upper = factor.matrixU();
-  LobeVector moved = LobeVector::Zero(best.size());  // what rounding has added so far
-  for (Eigen::Index k = best.size() - 1; k >= 0; --k) {
-    const int lobe = kept[static_cast<std::size_t>(k)];
-    double target = best[k];
-    for (Eigen::Index j = k + 1; j < best.size(); ++j) target -= upper(k, j) / upper(k, k) * moved[j];
-    const double shift = dither.empty() ? 0.0 : dither[static_cast<std::size_t>(lobe)];
-    const double steps =
-        target / quantiser.precision[static_cast<std::size_t>(lobe)] * quantiser.largest_code();
-    const double largest = quantiser.largest_code();
-    const double code = std::clamp(std::floor(steps + 0.5 + shift), -largest, largest);
-    codes[static_cast<std::size_t>(lobe)] = static_cast<int>(code);
-    moved[k] = quantiser.amplitude(lobe, static_cast<int>(code)) - best[k];
-  }
-  return codes;
-}
-
-double dither_threshold(std::uint32_t x, std::uint32_t y, int lobe) {
-  const double shifted = static_cast<double>(x) + 5.588238 * lobe;
-  const double inner = 0.06711056 * shifted + 0.00583715 * static_cast<double>(y);
-  const double noise = 52.9829189 * (inner - std::floor(inner));
-  return noise - std::floor(noise) - 0.5;
 }
 
 }  // namespace brdfit::bake

@@ -10,6 +10,9 @@
 namespace brdfit::bake {
 namespace {
 
+// Enough that ranges fitted to them cost others no more.
+constexpr std::size_t kMostRangeTexels = 2048;
+
 bool has_amplitudes(std::span<const float> amplitudes, std::size_t texels, std::size_t texel) {
   for (std::size_t at = texel; at < amplitudes.size(); at += texels) {
     if (amplitudes[at] != 0.0F) return true;
@@ -41,16 +44,35 @@ TexelEquations texel_equations(const LobeSystem& system, const TexelProblem& pro
   return equations;
 }
 
+std::vector<RealisRange> code_ranges(const LobeSystem& system, const TexelProblem& problem,
+                                     std::span<const float> amplitudes, const CompressOptions& options) {
+  const std::size_t lobes = system.lobes().size();
+  if (amplitudes.size() != lobes * problem.texels) throw std::invalid_argument("code_ranges: sizes disagree");
+  if (options.bits == 0) return std::vector<RealisRange>(lobes);
+  std::vector<std::size_t> used;
+  for (std::size_t texel = 0; texel < problem.texels; ++texel) {
+    if (has_amplitudes(amplitudes, problem.texels, texel)) used.push_back(texel);
+  }
+  const std::size_t count = std::min(used.size(), kMostRangeTexels);
+  std::vector<CodeSearch> texels(count);
+  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t k) {
+    const TexelEquations equations =
+        texel_equations(system, problem, used[(2 * k + 1) * used.size() / (2 * count)]);
+    texels[k] = CodeSearch(equations, dominant_lobes(equations, options.dominant).mask);
+  });
+  return fitted_ranges(texels, lobes, options.bits);
+}
+
 Compressed compress_block(const LobeSystem& system, const TexelProblem& problem,
                           std::span<const float> amplitudes, std::span<const std::uint32_t> texels, int width,
-                          std::span<const double> precision, const CompressOptions& options) {
+                          std::span<const RealisRange> ranges, const CompressOptions& options) {
   const std::size_t lobes = system.lobes().size();
   const std::size_t count = problem.texels;
-  if (amplitudes.size() != lobes * count || texels.size() != count || precision.size() != lobes ||
-      width <= 0) {
+  if (amplitudes.size() != lobes * count || texels.size() != count || width <= 0 ||
+      (options.bits > 0 && ranges.size() != lobes)) {
     throw std::invalid_argument("compress_block: sizes disagree");
   }
-  const Quantiser quantiser{options.bits, {precision.begin(), precision.end()}};
+  const Quantiser quantiser{options.bits, {ranges.begin(), ranges.end()}};
   Compressed out;
   out.amplitudes.assign(lobes * count, 0.0F);
   if (options.bits > 0) out.codes.assign(lobes * count, 0);
@@ -70,14 +92,16 @@ Compressed compress_block(const LobeSystem& system, const TexelProblem& problem,
     std::array<double, kMaxLobes> dither{};
     const auto wide = static_cast<std::uint32_t>(width);
     for (std::size_t k = 0; k < lobes && options.dither; ++k) {
-      dither[k] = dither_threshold(texels[texel] % wide, texels[texel] / wide, static_cast<int>(k));
+      dither[k] =
+          kDitherStrength * dither_threshold(texels[texel] % wide, texels[texel] / wide, static_cast<int>(k));
     }
-    const std::vector<int> codes =
-        quantise(equations, quantiser, dominant.mask, std::span<const double>(dither).first(lobes));
+    std::array<int, kMaxLobes> codes{};
+    CodeSearch(equations, dominant.mask)
+        .find(quantiser, std::span<const double>(dither).first(lobes), search_steps(options.bits),
+              std::span(codes).first(lobes));
     for (std::size_t k = 0; k < lobes; ++k) {
       out.codes[k * count + texel] = codes[k];
-      out.amplitudes[k * count + texel] =
-          static_cast<float>(quantiser.amplitude(static_cast<int>(k), codes[k]));
+      out.amplitudes[k * count + texel] = static_cast<float>(quantiser.amplitude(k, codes[k]));
     }
   });
   return out;

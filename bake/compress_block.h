@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include "bake/compress.h"
+#include "bake/code_ranges.h"
 #include "bake/solve.h"
 #include "bake/texel_problem.h"
 
@@ -28,12 +28,18 @@ struct Compressed {
   std::vector<std::uint32_t> masks;  // per texel, bit k: lobe k is kept; 0 for texels without amplitudes
 };
 
-// precision: per lobe (precision_per_lobe). texels: pixel of each, for the dither. width: of the picture.
-// Texels whose amplitudes are all 0 (not selected) stay so. Parallel over texels; the same for any number of
-// threads. Throws std::invalid_argument where sizes disagree.
+// Ranges of the lobes' codes from up to 2048 texels of a block, spread evenly over those that have
+// amplitudes; all with step 0 where none has, or amplitudes are not rounded. Throws std::invalid_argument
+// where sizes disagree.
+std::vector<RealisRange> code_ranges(const LobeSystem& system, const TexelProblem& problem,
+                                     std::span<const float> amplitudes, const CompressOptions& options);
+
+// ranges: per lobe (code_ranges); not looked at where amplitudes are not rounded. texels: pixel of each, for
+// the dither. width: of the picture. Texels whose amplitudes are all 0 (not selected) stay so. Parallel over
+// texels; the same for any number of threads. Throws std::invalid_argument where sizes disagree.
 Compressed compress_block(const LobeSystem& system, const TexelProblem& problem,
                           std::span<const float> amplitudes, std::span<const std::uint32_t> texels, int width,
-                          std::span<const double> precision, const CompressOptions& options);
+                          std::span<const RealisRange> ranges, const CompressOptions& options);
 
 }  // namespace brdfit::bake
 

@@ -18,7 +18,6 @@ namespace {
 // Above this many lights, leaving each out by itself costs too much.
 constexpr std::size_t kMostSingleFolds = 24;
 constexpr std::size_t kLightsPerFold = 10;
-constexpr double kQuantile = 0.995;
 
 // Lights to predict, with what is known of them.
 struct Targets {
@@ -125,7 +124,8 @@ MethodEvidence realis_method(std::string name, std::size_t lobes, int dominant, 
   MethodEvidence out = method(std::move(name));
   RealisAsset asset;
   asset.lobes.resize(lobes);
-  asset.packing = {bits == 0 ? 32 : bits, dominant, {}};
+  asset.packing.bits = bits == 0 ? 32 : bits;
+  asset.packing.dominant = dominant;
   out.lobes = static_cast<int>(lobes);
   out.dominant = dominant;
   out.bits = bits;
@@ -265,17 +265,21 @@ class Predictor {
       return;
     }
     const SolveResult solved = solve(*plan.system, baked_.problems[0]);
-    const std::vector<double> precision = precision_per_lobe(solved.amplitudes, lobes, kQuantile);
     for (const auto& [kind, options] : kinds) {
       const bool whole = options.bits == 0 && options.dominant == all;
       const std::vector<float> amplitudes =
-          whole ? solved.amplitudes
-                : compress_block(*plan.system, baked_.problems[0], solved.amplitudes, sample_.texels,
-                                 info_.width, precision, options)
-                      .amplitudes;
+          whole ? solved.amplitudes : compressed_amplitudes(*plan.system, solved.amplitudes, options);
       add(realis_method(kind, lobes, options.dominant, options.bits), targets, base,
           corrected(base, targets, *plan.system, amplitudes));
     }
+  }
+
+  std::vector<float> compressed_amplitudes(const LobeSystem& system, std::span<const float> amplitudes,
+                                           const CompressOptions& options) const {
+    const TexelProblem& problem = baked_.problems[0];
+    const std::vector<RealisRange> ranges = code_ranges(system, problem, amplitudes, options);
+    return compress_block(system, problem, amplitudes, sample_.texels, info_.width, ranges, options)
+        .amplitudes;
   }
 
   const StackInfo& train_info() {

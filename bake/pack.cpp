@@ -2,21 +2,18 @@
 #include "bake/pack.h"
 
 #include <bit>
-#include <cstdlib>
 #include <stdexcept>
+
+#include "brdf/realis.h"
 
 namespace brdfit::bake {
 namespace {
 
-int offset_of(int bits) {
-  return 1 << (bits - 1);
-}
-
-void put(const PackLayout& layout, PackedTexels& packed, std::size_t texel, int slot, int code) {
+void put(const PackLayout& layout, PackedTexels& packed, std::size_t texel, int slot, int whole) {
   const int within = slot % layout.slots_per_texture();
   const int byte = layout.bits == 4 ? within / 2 : within;
   const int shift = layout.bits == 4 ? within % 2 * 4 : 0;
-  const int stored = (code + offset_of(layout.bits)) << shift;
+  const int stored = whole << shift;
   std::uint8_t& place = packed.textures[static_cast<std::size_t>(slot / layout.slots_per_texture())]
                                        [texel * 4 + static_cast<std::size_t>(byte)];
   const int kept = layout.bits == 4 ? place & (0xF0 >> shift) : 0;
@@ -28,8 +25,7 @@ int get(const PackLayout& layout, const PackedTexels& packed, std::size_t texel,
   const int byte = layout.bits == 4 ? within / 2 : within;
   const int value = packed.textures[static_cast<std::size_t>(slot / layout.slots_per_texture())]
                                    [texel * 4 + static_cast<std::size_t>(byte)];
-  const int stored = layout.bits == 4 ? value >> (within % 2 * 4) & 0xF : value;
-  return stored == 0 ? 0 : stored - offset_of(layout.bits);
+  return layout.bits == 4 ? value >> (within % 2 * 4) & 0xF : value;
 }
 
 std::uint32_t all_lobes(const PackLayout& layout) {
@@ -41,6 +37,12 @@ void check(const PackLayout& layout) {
       layout.lobes >= 0 && layout.lobes <= 24 && (layout.channels == 1 || layout.channels == 3) &&
       (layout.bits == 4 || layout.bits == 8) && layout.dominant >= 0 && layout.dominant <= layout.lobes;
   if (!good) throw std::invalid_argument("pack: no such layout");
+  if (layout.zeros.size() != static_cast<std::size_t>(layout.lobes * layout.channels))
+    throw std::invalid_argument("pack: not every plane has a zero");
+  for (const int zero : layout.zeros) {
+    if (zero < 0 || zero > realis_top_code(layout.bits))
+      throw std::invalid_argument("pack: a zero is out of range");
+  }
 }
 
 }  // namespace
@@ -51,10 +53,10 @@ PackedTexels pack(const PackLayout& layout, std::span<const int> codes,
   const std::size_t texels = masks.size();
   const auto planes = static_cast<std::size_t>(layout.lobes * layout.channels);
   if (codes.size() != planes * texels) throw std::invalid_argument("pack: sizes disagree");
-  const auto zero = static_cast<std::uint8_t>(layout.bits == 4 ? 0x88 : 0x80);
+  const auto middle = static_cast<std::uint8_t>(layout.bits == 4 ? 0x88 : 0x80);
   PackedTexels packed;
   packed.textures.assign(static_cast<std::size_t>(layout.textures()),
-                         std::vector<std::uint8_t>(texels * 4, zero));
+                         std::vector<std::uint8_t>(texels * 4, middle));
   packed.mask.resize(texels * static_cast<std::size_t>(layout.mask_channels()));
   for (std::size_t texel = 0; texel < texels; ++texel) {
     if (std::popcount(masks[texel]) > layout.dominant)
@@ -64,10 +66,11 @@ PackedTexels pack(const PackLayout& layout, std::span<const int> codes,
     for (int lobe = 0; lobe < layout.lobes; ++lobe) {
       if ((kept >> lobe & 1U) == 0) continue;
       for (int channel = 0; channel < layout.channels; ++channel) {
-        const int code = codes[static_cast<std::size_t>(lobe * layout.channels + channel) * texels + texel];
-        if (std::abs(code) >= offset_of(layout.bits))
+        const auto plane = static_cast<std::size_t>(lobe * layout.channels + channel);
+        const int whole = codes[plane * texels + texel] + layout.zeros[plane];
+        if (whole < 0 || whole > realis_top_code(layout.bits))
           throw std::invalid_argument("pack: a code is out of range");
-        put(layout, packed, texel, slot++, code);
+        put(layout, packed, texel, slot++, whole);
       }
     }
     for (int byte = 0; byte < layout.mask_channels(); ++byte) {
@@ -99,8 +102,8 @@ std::vector<int> unpack(const PackLayout& layout, const PackedTexels& packed, st
     for (int lobe = 0; lobe < layout.lobes && slot < layout.slots(); ++lobe) {
       if ((kept >> lobe & 1U) == 0) continue;
       for (int channel = 0; channel < layout.channels; ++channel) {
-        codes[static_cast<std::size_t>(lobe * layout.channels + channel) * texels + texel] =
-            get(layout, packed, texel, slot++);
+        const auto plane = static_cast<std::size_t>(lobe * layout.channels + channel);
+        codes[plane * texels + texel] = get(layout, packed, texel, slot++) - layout.zeros[plane];
       }
     }
   }

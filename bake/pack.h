@@ -2,8 +2,8 @@
 //
 // A texel keeps `dominant` lobes; slot s holds the s-th lobe of its mask, in the order of lobes (for RGB
 // three slots, red first). With 8 bits four slots make one RGBA texture; with 4 bits eight do, the first of
-// two in the low half of a byte. A code is stored with 128 (8 bits) or 8 (4 bits) added, so 0 means nothing
-// was stored; unused slots hold the code 0.
+// two in the low half of a byte. A code is stored with its plane's zero added, so that it is not negative;
+// slots that no lobe uses hold the middle of the range.
 #ifndef BRDFIT_BAKE_PACK_H_
 #define BRDFIT_BAKE_PACK_H_
 
@@ -20,6 +20,8 @@ struct PackLayout {
   int channels = 1;  // of an amplitude: 3 for RGB
   int bits = 8;      // 4 or 8
   int dominant = 8;  // lobes kept per texel
+  // Per plane ([lobe][channel]): how the code 0 is stored, in [0, 2^bits - 1].
+  std::vector<int> zeros;
 
   int slots() const { return dominant * channels; }
   int slots_per_texture() const { return bits == 4 ? 8 : 4; }
@@ -35,9 +37,9 @@ struct PackedTexels {
   std::vector<std::uint8_t> mask;                   // [texel * mask_channels()]
 };
 
-// codes: [lobe][channel][texel]; masks: per texel, bit k for lobe k, as many bits as layout.dominant or
-// fewer. Throws std::invalid_argument where sizes disagree, a code is out of range or a mask has too many
-// bits.
+// codes: [lobe][channel][texel], each plane's from -zero to 2^bits - 1 - zero; masks: per texel, bit k for
+// lobe k, as many bits as layout.dominant or fewer. Throws std::invalid_argument where sizes disagree, a code
+// is out of range or a mask has too many bits.
 PackedTexels pack(const PackLayout& layout, std::span<const int> codes, std::span<const std::uint32_t> masks);
 
 // The inverse: codes as given to pack, 0 for lobes that were not kept. masks: filled in.

@@ -24,9 +24,16 @@ struct Lobe {
 
 using LobeSet = std::vector<Lobe>;
 
-// Codes of amplitudes are whole numbers from minus this to this.
-constexpr int realis_largest_code(int bits) {
-  return (1 << (bits - 1)) - 1;
+// How amplitudes of one lobe are stored, as whole numbers in [0, realis_top_code(bits)]: an amplitude is
+// (stored - zero) x step. step >= 0; 0 where the lobe is not used. zero, itself such a number, stands for 0.
+struct RealisRange {
+  double step = 0.0;
+  int zero = 0;
+  friend bool operator==(const RealisRange&, const RealisRange&) = default;
+};
+
+constexpr int realis_top_code(int bits) {
+  return (1 << bits) - 1;
 }
 
 // The lobe's value for a light in that direction (unit, towards the light), in [0, 1].

@@ -24,9 +24,10 @@ std::string complaint_about(const RealisAsset& asset) {
     if (std::string complaint = complaint_about(lobe); !complaint.empty()) return complaint;
   }
   if (asset.packing.bits != 4 && asset.packing.bits != 8) return "codes have neither 4 nor 8 bits";
-  if (asset.packing.precision.size() != asset.plane_count()) return "not every amplitude has a precision";
-  for (const double precision : asset.packing.precision) {
-    if (!(precision >= 0.0 && std::isfinite(precision))) return "a precision is negative";
+  if (asset.packing.ranges.size() != asset.plane_count()) return "not every amplitude has a step and a zero";
+  for (const RealisRange& range : asset.packing.ranges) {
+    if (!(range.step >= 0.0 && std::isfinite(range.step))) return "the step of a code is negative";
+    if (range.zero < 0 || range.zero > realis_top_code(asset.packing.bits)) return "a zero is not a code";
   }
   if (asset.packing.dominant < 0 || asset.packing.dominant > static_cast<int>(asset.lobes.size())) {
     return "more dominant lobes than lobes";

@@ -23,13 +23,12 @@ enum class RealisColour {
 std::string_view name_of(RealisColour colour);
 std::optional<RealisColour> realis_colour_by_name(std::string_view name);
 
-// Amplitudes as codes: whole numbers in [-largest_code(), largest_code()].
+// Amplitudes as whole numbers of few bits.
 struct RealisPacking {
   int bits = 8;      // 4 or 8
   int dominant = 0;  // amplitudes kept per texel and channel; as many as lobes: all
-  // Amplitude of the largest code per plane (lobes, for kRgb [lobe][channel]): the precision multipliers.
-  std::vector<double> precision;
-  int largest_code() const { return realis_largest_code(bits); }
+  // Per plane (lobes, for kRgb [lobe][channel]): the precision multipliers, and where 0 is.
+  std::vector<RealisRange> ranges;
 };
 
 // Where the correction ends: the distance in linear albedo and the angle between normals at which it is gone.

@@ -43,8 +43,13 @@ std::uint8_t srgb_byte(double linear) {
 }  // namespace
 
 bake::PackLayout layout_of(const RealisAsset& asset) {
-  return {static_cast<int>(asset.lobes.size()), asset.colour == RealisColour::kRgb ? 3 : 1,
-          asset.packing.bits, asset.packing.dominant};
+  bake::PackLayout layout{static_cast<int>(asset.lobes.size()),
+                          asset.colour == RealisColour::kRgb ? 3 : 1,
+                          asset.packing.bits,
+                          asset.packing.dominant,
+                          {}};
+  for (const RealisRange& range : asset.packing.ranges) layout.zeros.push_back(range.zero);
+  return layout;
 }
 
 void name_asset_files(RealisAsset& asset) {
@@ -195,9 +200,9 @@ std::vector<float> AssetReader::State::read_amplitudes(int first_row, int rows) 
   const std::vector<int> whole = bake::unpack(layout_of(asset), texels, count);
   std::vector<float> out(whole.size());
   for (std::size_t k = 0; k < whole.size(); ++k) {
-    out[k] = static_cast<float>(kernel::realis_amplitude(static_cast<double>(whole[k]),
-                                                         static_cast<double>(asset.packing.largest_code()),
-                                                         asset.packing.precision[k / count]));
+    const RealisRange& range = asset.packing.ranges[k / count];
+    out[k] = static_cast<float>(kernel::realis_amplitude(static_cast<double>(whole[k] + range.zero),
+                                                         static_cast<double>(range.zero), range.step));
   }
   return out;
 }

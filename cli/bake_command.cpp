@@ -19,8 +19,6 @@
 namespace brdfit::cli {
 namespace {
 
-// Of the absolute amplitudes of a lobe: those beyond are cut when they become codes.
-constexpr double kPrecisionQuantile = 0.995;
 // What a strip needs beside its pixels: render, problem, solution.
 constexpr std::size_t kMemoryPerPixelMemory = 5;
 
@@ -110,7 +108,7 @@ class Bake {
     if (plan_.system) asset_.lobes = plan_.system->lobes();
     asset_.packing.bits = a_.bits;
     asset_.packing.dominant = dominant_of(a_, static_cast<int>(asset_.lobes.size()));
-    asset_.packing.precision = precisions();
+    asset_.packing.ranges = ranges();
     name_asset_files(asset_);
   }
 
@@ -128,13 +126,20 @@ class Bake {
     return planes;
   }
 
-  std::vector<double> precisions() const {
-    if (!plan_.system) return {};
+  bake::CompressOptions compress_options() const { return {a_.bits, asset_.packing.dominant, !a_.no_dither}; }
+
+  // Of planes, [lobe][channel].
+  std::vector<RealisRange> ranges() const {
+    std::vector<RealisRange> planes(asset_.plane_count());
+    if (!plan_.system) return planes;
     const bake::BakedBlock baked = bake::bake_block(stack_.info(), sample_, plan_, settings_);
-    std::vector<std::vector<float>> channels;
-    for (const bake::SolveResult& solved : baked.solved) channels.push_back(solved.amplitudes);
-    return bake::precision_per_lobe(planes_of(channels, asset_.lobes.size(), sample_.count()),
-                                    asset_.plane_count(), kPrecisionQuantile);
+    const std::size_t channels = baked.solved.size();
+    for (std::size_t c = 0; c < channels; ++c) {
+      const std::vector<RealisRange> lobes =
+          bake::code_ranges(*plan_.system, baked.problems[c], baked.solved[c].amplitudes, compress_options());
+      for (std::size_t k = 0; k < lobes.size(); ++k) planes[k * channels + c] = lobes[k];
+    }
+    return planes;
   }
 
   AssetRows rows_of(const TexelBlock& block) const {
@@ -155,13 +160,13 @@ class Bake {
     rows.masks.assign(block.count(), 0);
     for (std::size_t c = 0; c < channels; ++c) {
       const bake::SolveResult& solved = baked.solved[c];
-      std::vector<double> precision;
+      std::vector<RealisRange> ranges;
       for (std::size_t lobe = 0; lobe < lobes; ++lobe) {
-        precision.push_back(asset_.packing.precision[lobe * channels + c]);
+        ranges.push_back(asset_.packing.ranges[lobe * channels + c]);
       }
       const bake::Compressed small =
           bake::compress_block(*plan_.system, baked.problems[c], solved.amplitudes, block.texels,
-                               asset_.width, precision, {a_.bits, asset_.packing.dominant, !a_.no_dither});
+                               asset_.width, ranges, compress_options());
       for (std::size_t lobe = 0; lobe < lobes; ++lobe) {
         std::copy_n(small.codes.begin() + static_cast<std::ptrdiff_t>(lobe * block.count()), block.count(),
                     rows.codes.begin() + static_cast<std::ptrdiff_t>((lobe * channels + c) * block.count()));

@@ -15,7 +15,7 @@
 namespace brdfit::io {
 namespace {
 
-constexpr int kVersion = 1;
+constexpr int kVersion = 2;
 constexpr int kMaxEdge = 1 << 20;
 constexpr std::string_view kFrame = "x right, y up, z towards the viewer";
 constexpr std::string_view kLambert = "lambert";
@@ -74,7 +74,19 @@ RealisPacking read_packing(ObjectReader reader) {
   RealisPacking packing;
   packing.bits = static_cast<int>(reader.integer("bits", 4, 8));
   packing.dominant = static_cast<int>(reader.integer("dominant", 0, 64));
-  packing.precision = reader.numbers("precision");
+  const std::vector<double> steps = reader.numbers("step");
+  const std::vector<double> zeros = reader.numbers("zero");
+  if (zeros.size() != steps.size()) {
+    reader.fail("zero", fmt::format("has {} numbers", zeros.size()), fmt::format("{}", steps.size()));
+  }
+  for (std::size_t k = 0; k < steps.size(); ++k) {
+    const bool whole = zeros[k] >= 0.0 && zeros[k] <= realis_top_code(packing.bits);
+    if (!whole || std::floor(zeros[k]) != zeros[k]) {
+      reader.fail("zero", fmt::format("has {}", zeros[k]),
+                  fmt::format("whole numbers from 0 to {}", realis_top_code(packing.bits)));
+    }
+    packing.ranges.push_back({steps[k], static_cast<int>(zeros[k])});
+  }
   reader.number("bytes_per_texel", 0.0, 1e6);
   reader.finish();
   return packing;
@@ -124,9 +136,16 @@ Json realis_to_json(const RealisAsset& asset) {
   json["view"] = vector_to_json(asset.view);
   json["lobes"] = lobes_to_json(asset.lobes);
   json["base"] = asset.base ? material_to_json(*asset.base) : Json(kLambert);
+  std::vector<double> steps;
+  std::vector<int> zeros;
+  for (const RealisRange& range : asset.packing.ranges) {
+    steps.push_back(range.step);
+    zeros.push_back(range.zero);
+  }
   json["packing"] = {{"bits", asset.packing.bits},
                      {"dominant", asset.packing.dominant},
-                     {"precision", asset.packing.precision},
+                     {"step", steps},
+                     {"zero", zeros},
                      {"bytes_per_texel", asset.bytes_per_texel()}};
   json["fade"] = {{"albedo_range", asset.fade.albedo_range},
                   {"normal_range_deg", asset.fade.normal_range_deg}};

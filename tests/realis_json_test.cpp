@@ -18,7 +18,7 @@ RealisAsset asset_of(RealisColour colour) {
   asset.colour = colour;
   asset.lobes = {{{0.0, 0.0, 1.0}, 4.25, -1.0}, {{0.6, 0.0, 0.8}, 1.0 / 3.0, 0.1}};
   asset.base = Material(Model::kCallisto);
-  asset.packing = {4, 1, std::vector<double>(asset.plane_count(), 0.7)};
+  asset.packing = {4, 1, std::vector<RealisRange>(asset.plane_count(), {0.7 / 15.0, 11})};
   asset.files.amplitudes = "lion.amplitudes.exr";
   asset.files.packed = {"lion.packed0.png"};
   return asset;
@@ -33,7 +33,7 @@ TEST(RealisJson, RoundTrips) {
     EXPECT_EQ(realis_to_json(read), json);
     EXPECT_EQ(read.lobes, asset.lobes);
     EXPECT_EQ(read.base, asset.base);
-    EXPECT_EQ(read.packing.precision, asset.packing.precision);
+    EXPECT_EQ(read.packing.ranges, asset.packing.ranges);
   }
   RealisAsset lambert = asset_of(RealisColour::kRgb);
   lambert.base.reset();
@@ -59,7 +59,12 @@ TEST(RealisJson, RefusesWhatDoesNotAgree) {
   expect_refused([](Json& json) { json.erase("lobes"); });
   expect_refused([](Json& json) { json["lobes"][0]["axis"] = Json::array({0.0, 0.0, 2.0}); });
   expect_refused([](Json& json) { json["lobes"][0]["cos_cut_off"] = 1.0; });
-  expect_refused([](Json& json) { json["packing"]["precision"].push_back(1.0); });
+  expect_refused([](Json& json) { json["brdfit_realis"] = 1; });
+  expect_refused([](Json& json) { json["packing"]["step"].push_back(1.0); });
+  expect_refused([](Json& json) { json["packing"]["step"][0] = -1.0; });
+  expect_refused([](Json& json) { json["packing"]["zero"][0] = 16; });
+  expect_refused([](Json& json) { json["packing"]["zero"][0] = -1; });
+  expect_refused([](Json& json) { json["packing"]["zero"][0] = 2.5; });
   expect_refused([](Json& json) { json["packing"]["bits"] = 5; });
   expect_refused([](Json& json) { json["packing"]["dominant"] = 3; });
   expect_refused([](Json& json) { json["colour"] = "yuv"; });
@@ -70,16 +75,16 @@ TEST(RealisJson, RefusesWhatDoesNotAgree) {
 
 TEST(RealisJson, DoesNotWriteAnAssetThatIsNotValid) {
   RealisAsset asset = asset_of(RealisColour::kRgb);
-  asset.packing.precision.pop_back();
+  asset.packing.ranges.pop_back();
   EXPECT_THROW(realis_to_json(asset), std::invalid_argument);
 }
 
 TEST(RealisAsset, CountsTheBytesOfARunTimeTexel) {
   RealisAsset asset = asset_of(RealisColour::kLuminance);
   asset.lobes.assign(8, asset.lobes[0]);
-  asset.packing = {8, 8, std::vector<double>(8, 1.0)};
+  asset.packing = {8, 8, std::vector<RealisRange>(8)};
   EXPECT_EQ(asset.bytes_per_texel(), 8.0);
-  asset.packing = {4, 4, std::vector<double>(8, 1.0)};
+  asset.packing = {4, 4, std::vector<RealisRange>(8)};
   EXPECT_EQ(asset.bytes_per_texel(), 3.0);  // four halves of a byte, and the mask
   EXPECT_EQ(realis_channel_names(asset).back(), "lobe07.Y");
 }

@@ -6,10 +6,10 @@
 namespace brdfit::kernel {
 namespace {
 
-TEST(RealisKernel, TheLargestCodeIsTheLargestAmplitude) {
-  EXPECT_EQ(realis_amplitude(127.0, 127.0, 0.3), 0.3);
-  EXPECT_EQ(realis_amplitude(-7.0, 7.0, 2.0), -2.0);
-  EXPECT_EQ(realis_amplitude(0.0, 7.0, 2.0), 0.0);
+TEST(RealisKernel, AmplitudesAreStepsFromZero) {
+  EXPECT_EQ(realis_amplitude(255.0, 127.0, 0.25), 32.0);
+  EXPECT_EQ(realis_amplitude(0.0, 7.0, 2.0), -14.0);
+  EXPECT_EQ(realis_amplitude(7.0, 7.0, 2.0), 0.0);
 }
 
 TEST(RealisKernel, NothingFadesWhereTheSurfaceIsAsBaked) {

@@ -7,11 +7,11 @@
 
 BRDF_NAMESPACE_BEGIN
 
-// The amplitude that a code stands for. Codes are whole numbers in [-largest_code, largest_code]; precision
-// is the amplitude of the largest one.
+// The amplitude that a stored whole number stands for; `zero` is the one of amplitude 0. As this is linear,
+// textures of 8 bits may be filtered before it.
 BRDF_REAL_FUNCTION
-Real realis_amplitude(Real code, Real largest_code, Real largest_amplitude) {
-  return code / largest_code * largest_amplitude;
+Real realis_amplitude(Real stored, Real zero, Real step) {
+  return (stored - zero) * step;
 }
 
 // How much of the correction is left, in [0, 1]: 1 where the surface is as it was baked, falling steadily to
