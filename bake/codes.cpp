@@ -10,6 +10,12 @@
 #include "brdf/kernel/realis.h"
 
 namespace brdfit::bake {
+namespace {
+
+// Of codes whose range no noise reaches the end of.
+constexpr int kUnlimitedBits = 16;
+
+}  // namespace
 
 double Quantiser::amplitude(std::size_t lobe, int code) const {
   const RealisRange& range = ranges[lobe];
@@ -21,8 +27,8 @@ double Quantiser::amplitude(std::size_t lobe, int code) const {
 // it alone, and what exceeds the least error found so far is not followed.
 class CodeSearch::Walk {
  public:
-  Walk(const CodeSearch& texel, const Quantiser& quantiser, std::span<const double> dither, int steps)
-      : texel_(texel), quantiser_(quantiser), dither_(dither), steps_left_(steps) {}
+  Walk(const CodeSearch& texel, const Quantiser& quantiser, const LobeVector& goal, int steps)
+      : texel_(texel), quantiser_(quantiser), goal_(goal), steps_left_(steps) {}
 
   void choose(Eigen::Index k, double error) {
     if (k < 0) {
@@ -34,15 +40,15 @@ class CodeSearch::Walk {
     --steps_left_;
     const auto place = static_cast<std::size_t>(k);
     const auto lobe = static_cast<std::size_t>(texel_.lobes_[place]);
-    double target = texel_.best_[k];
-    for (Eigen::Index j = k + 1; j < texel_.best_.size(); ++j)
+    double target = goal_[k];
+    for (Eigen::Index j = k + 1; j < goal_.size(); ++j)
       target -= texel_.feedback_(k, j) * moved_[static_cast<std::size_t>(j)];
     const double step = quantiser_.ranges[lobe].step;
     if (!(step > 0.0)) {
       take(k, 0, 0.0, error + texel_.weights_[k] * target * target);
       return;
     }
-    const double position = target / step + (dither_.empty() ? 0.0 : dither_[lobe]);
+    const double position = target / step;
     const int smallest = quantiser_.smallest_code(lobe);
     const int largest = quantiser_.largest_code(lobe);
     int below = static_cast<int>(
@@ -65,13 +71,13 @@ class CodeSearch::Walk {
   void take(Eigen::Index k, int code, double amplitude, double error) {
     const auto place = static_cast<std::size_t>(k);
     codes_[place] = code;
-    moved_[place] = amplitude - texel_.best_[k];
+    moved_[place] = amplitude - goal_[k];
     choose(k - 1, error);
   }
 
   const CodeSearch& texel_;
   const Quantiser& quantiser_;
-  std::span<const double> dither_;
+  const LobeVector& goal_;
   int steps_left_;
   double least_ = std::numeric_limits<double>::infinity();
   std::array<int, kMaxLobes> codes_{};
@@ -89,19 +95,43 @@ CodeSearch::CodeSearch(const TexelEquations& equations, std::uint32_t mask)
   feedback_ = upper.diagonal().cwiseInverse().asDiagonal() * upper;
 }
 
-double CodeSearch::find(const Quantiser& quantiser, std::span<const double> dither, int steps,
+double CodeSearch::find(const Quantiser& quantiser, const LobeVector& shift, int steps,
                         std::span<int> codes) const {
-  Walk walk(*this, quantiser, dither, steps);
+  const LobeVector goal = shift.size() > 0 ? LobeVector(best_ + shift) : best_;
+  Walk walk(*this, quantiser, goal, steps);
   walk.choose(best_.size() - 1, 0.0);
   std::fill(codes.begin(), codes.end(), 0);
   for (std::size_t k = 0; k < lobes_.size(); ++k) codes[static_cast<std::size_t>(lobes_[k])] = walk.code(k);
   return walk.least();
 }
 
+LobeVector CodeSearch::dither(const Quantiser& quantiser, std::span<const double> noise, int steps) const {
+  // Noise over the box of one step per lobe covers what codes repeat, and so does what is left of it when
+  // the codes next to it are taken away.
+  Quantiser unlimited{kUnlimitedBits, quantiser.ranges};
+  for (RealisRange& range : unlimited.ranges) range.zero = realis_top_code(kUnlimitedBits) / 2;
+  LobeVector spread(best_.size());
+  for (std::size_t k = 0; k < lobes_.size(); ++k) {
+    const auto lobe = static_cast<std::size_t>(lobes_[k]);
+    spread[static_cast<Eigen::Index>(k)] = noise[lobe] * quantiser.ranges[lobe].step;
+  }
+  Walk walk(*this, unlimited, spread, steps);
+  walk.choose(best_.size() - 1, 0.0);
+  LobeVector left = spread;
+  for (std::size_t k = 0; k < lobes_.size(); ++k) {
+    left[static_cast<Eigen::Index>(k)] -=
+        unlimited.amplitude(static_cast<std::size_t>(lobes_[k]), walk.code(k));
+  }
+  return left;
+}
+
 std::vector<int> quantise(const TexelEquations& equations, const Quantiser& quantiser, std::uint32_t mask,
-                          std::span<const double> dither, int steps) {
+                          std::span<const double> noise, int steps, double strength) {
   std::vector<int> codes(static_cast<std::size_t>(equations.b.size()));
-  CodeSearch(equations, mask).find(quantiser, dither, steps, codes);
+  const CodeSearch search(equations, mask);
+  LobeVector shift;
+  if (!noise.empty()) shift = strength * search.dither(quantiser, noise, steps);
+  search.find(quantiser, shift, steps, codes);
   return codes;
 }
 

@@ -43,13 +43,17 @@ class CodeSearch {
   const std::vector<int>& lobes() const { return lobes_; }  // in the mask, ascending
   const LobeVector& amplitudes() const { return best_; }    // of these, before rounding
 
-  // Finds codes whose error above that of the best amplitudes is least and returns that error. The first that
-  // are tried round each amplitude given those that are rounded already (nearest plane, Babai 1986); others
-  // follow while there are steps left, nearest first (Schnorr and Euchner 1994). codes: per lobe of the
-  // equations, overwritten. dither: shift of the rounding threshold per lobe of the equations, in steps of
-  // its code, or empty; the error is then that to the shifted amplitudes.
-  double find(const Quantiser& quantiser, std::span<const double> dither, int steps,
-              std::span<int> codes) const;
+  // Finds codes whose error above that of the best amplitudes, moved by `shift`, is least and returns that
+  // error. The first that are tried round each amplitude given those that are rounded already (nearest plane,
+  // Babai 1986); others follow while there are steps left, nearest first (Schnorr and Euchner 1994). shift:
+  // per lobe of the mask, or empty. codes: per lobe of the equations, overwritten.
+  double find(const Quantiser& quantiser, const LobeVector& shift, int steps, std::span<int> codes) const;
+
+  // A shift that is spread evenly over the amplitudes whose codes are the same, as noise is over [-0.5, 0.5):
+  // codes of amplitudes that are shifted so are right in the mean (dithered lattices, Zamir and Feder 1992).
+  // That cell is round where shifts of each lobe by itself would move the sum of overlapping lobes by
+  // several steps. noise: per lobe of the equations. No limits of codes are looked at.
+  LobeVector dither(const Quantiser& quantiser, std::span<const double> noise, int steps) const;
 
  private:
   class Walk;
@@ -60,17 +64,18 @@ class CodeSearch {
   LobeMatrix feedback_;  // (k, j > k): how much of what rounding adds to j is taken from k
 };
 
-// Codes per lobe of the equations; those outside `mask` are 0. See CodeSearch::find.
+// Dither of a whole step leaves no trace of a ramp's contours in the mean over neighbours, but doubles each
+// texel's squared rounding error. With this share of it the mean is as good and half of that cost is saved.
+inline constexpr double kDitherStrength = 0.7;
+
+// Codes per lobe of the equations; those outside `mask` are 0. noise: per lobe of the equations, in
+// [-0.5, 0.5), or empty: no dither. strength: of dither, in [0, 1].
 std::vector<int> quantise(const TexelEquations& equations, const Quantiser& quantiser, std::uint32_t mask,
-                          std::span<const double> dither, int steps);
+                          std::span<const double> noise, int steps, double strength = kDitherStrength);
 
 // A number in [-0.5, 0.5) for a texel and a lobe: neighbours differ, so that what rounding takes away at one
 // is given at the next. Interleaved gradient noise (Jimenez 2014), shifted from lobe to lobe.
 double dither_threshold(std::uint32_t x, std::uint32_t y, int lobe);
-
-// Dither of a whole step leaves no trace of a ramp's contours in the mean over neighbours, but doubles each
-// texel's squared rounding error. With this share of it the mean is as good and half of that cost is saved.
-inline constexpr double kDitherStrength = 0.7;
 
 }  // namespace brdfit::bake
 

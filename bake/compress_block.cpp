@@ -92,13 +92,11 @@ Compressed compress_block(const LobeSystem& system, const TexelProblem& problem,
     std::array<double, kMaxLobes> dither{};
     const auto wide = static_cast<std::uint32_t>(width);
     for (std::size_t k = 0; k < lobes && options.dither; ++k) {
-      dither[k] =
-          kDitherStrength * dither_threshold(texels[texel] % wide, texels[texel] / wide, static_cast<int>(k));
+      dither[k] = dither_threshold(texels[texel] % wide, texels[texel] / wide, static_cast<int>(k));
     }
-    std::array<int, kMaxLobes> codes{};
-    CodeSearch(equations, dominant.mask)
-        .find(quantiser, std::span<const double>(dither).first(lobes), search_steps(options.bits),
-              std::span(codes).first(lobes));
+    const std::span<const double> noise(dither.data(), options.dither ? lobes : 0);
+    const std::vector<int> codes =
+        quantise(equations, quantiser, dominant.mask, noise, search_steps(options.bits));
     for (std::size_t k = 0; k < lobes; ++k) {
       out.codes[k * count + texel] = codes[k];
       out.amplitudes[k * count + texel] = static_cast<float>(quantiser.amplitude(k, codes[k]));

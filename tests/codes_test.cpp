@@ -136,8 +136,8 @@ TEST(Codes, DitherOfAWholeStepKeepsTheMeanOfAFlatArea) {
   double mean = 0.0;
   for (std::uint32_t y = 0; y < 64; ++y) {
     for (std::uint32_t x = 0; x < 64; ++x) {
-      const std::vector<double> dither{dither_threshold(x, y, 0)};
-      mean += quantiser.amplitude(0, quantise(equations, quantiser, 1, dither, 0)[0]) / 4096.0;
+      const std::vector<double> noise{dither_threshold(x, y, 0)};
+      mean += quantiser.amplitude(0, quantise(equations, quantiser, 1, noise, 0, 1.0)[0]) / 4096.0;
     }
   }
   EXPECT_NEAR(mean, 0.37, 0.01);
@@ -154,10 +154,11 @@ class Ramp {
       for (std::uint32_t x = 0; x < kSize; ++x) {
         const double along = (x + 0.2 * y) / kSize;
         const TexelEquations texel{from.a, from.b + along * (target - from.b)};
-        std::vector<double> dither;
-        for (int k = 0; k < 8; ++k) dither.push_back(strength * dither_threshold(x, y, k));
-        errors_.push_back(decoded(quantiser, quantise(texel, quantiser, 0xFF, dither, search_steps(4))) -
-                          solve(texel));
+        std::vector<double> noise;
+        for (int k = 0; k < 8; ++k) noise.push_back(dither_threshold(x, y, k));
+        errors_.push_back(
+            decoded(quantiser, quantise(texel, quantiser, 0xFF, noise, search_steps(4), strength)) -
+            solve(texel));
       }
     }
     a_ = from.a;
@@ -187,6 +188,26 @@ class Ramp {
   LobeMatrix a_;
   std::vector<LobeVector> errors_;
 };
+
+// Rounding a shift away leaves nothing: it stays within the amplitudes whose codes are the same.
+TEST(Codes, DitherMovesAmplitudesByNoMoreThanRounding) {
+  for (unsigned seed = 0; seed < 50; ++seed) {
+    const TexelEquations equations = overlapping_lobes(seed);
+    const Quantiser quantiser = quantiser_for(solve(equations), 4);
+    std::vector<double> noise;
+    LobeVector by_lobe(8);
+    for (int k = 0; k < 8; ++k) {
+      noise.push_back(dither_threshold(seed, 2 * seed, k));
+      by_lobe[k] = noise.back() * quantiser.ranges[static_cast<std::size_t>(k)].step;
+    }
+    const CodeSearch search(equations, 0xFF);
+    const LobeVector shift = search.dither(quantiser, noise, kManySteps);
+    EXPECT_LE(shift.dot(equations.a * shift), by_lobe.dot(equations.a * by_lobe) * (1.0 + 1e-9));
+    std::array<int, 8> codes{};
+    CodeSearch({equations.a, equations.a * shift}, 0xFF).find(quantiser, {}, kManySteps, codes);
+    for (const int code : codes) EXPECT_EQ(code, 0);
+  }
+}
 
 TEST(Codes, DitherMakesMeansOverNeighboursFollowASlowRamp) {
   const Ramp plain(0.0);
