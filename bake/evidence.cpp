@@ -9,7 +9,6 @@
 #include <utility>
 
 #include "bake/baselines.h"
-#include "bake/compress_block.h"
 #include "bake/luminance.h"
 
 namespace brdfit::bake {
@@ -120,16 +119,12 @@ MethodEvidence method(std::string name) {
   return out;
 }
 
-MethodEvidence realis_method(std::string name, std::size_t lobes, int dominant, int bits) {
-  MethodEvidence out = method(std::move(name));
-  RealisAsset asset;
-  asset.lobes.resize(lobes);
-  asset.packing.bits = bits == 0 ? 32 : bits;
-  asset.packing.dominant = dominant;
-  out.lobes = static_cast<int>(lobes);
-  out.dominant = dominant;
-  out.bits = bits;
-  out.bytes_per_texel = asset.bytes_per_texel();
+MethodEvidence realis_method(const RealisKind& kind) {
+  MethodEvidence out = method(kind.name);
+  out.lobes = kind.lobes;
+  out.dominant = kind.options.dominant;
+  out.bits = kind.options.bits;
+  out.bytes_per_texel = kind.bytes_per_texel();
   return out;
 }
 
@@ -168,6 +163,8 @@ class Predictor {
     compare_baselines(targets);
     compare_realis(targets);
   }
+
+  const std::map<int, BakePlan>& others() const { return others_; }
 
  private:
   struct Base {
@@ -248,29 +245,18 @@ class Predictor {
 
   void compare_lobes(const std::string& name, const Base& base, const Targets& targets, const BakePlan& plan,
                      bool compressed) {
-    const auto lobes = static_cast<std::size_t>(plan.system ? plan.system->lobes().size() : settings_.lobes);
-    const auto all = static_cast<int>(lobes);
-    const int half = std::max(1, all / 2);
-    std::vector<std::pair<std::string, CompressOptions>> kinds{{name, {0, all, false}}};
-    if (compressed) {
-      kinds.push_back({name + "-8bit", {8, all, options_.dither}});
-      kinds.push_back({name + "-4bit", {4, all, options_.dither}});
-      kinds.push_back({fmt::format("{}-m{}", name, half), {0, half, false}});
-      kinds.push_back({fmt::format("{}-m{}-8bit", name, half), {8, half, options_.dither}});
-    }
+    const int lobes = plan.system ? static_cast<int>(plan.system->lobes().size()) : settings_.lobes;
+    const std::vector<RealisKind> kinds = realis_kinds(name, lobes, compressed, options_.dither);
     if (!plan.system) {
-      for (const auto& [kind, options] : kinds) {
-        add(realis_method(kind, lobes, options.dominant, options.bits), targets, base, base.problem.residual);
-      }
+      for (const RealisKind& kind : kinds) add(realis_method(kind), targets, base, base.problem.residual);
       return;
     }
     const SolveResult solved = solve(*plan.system, baked_.problems[0]);
-    for (const auto& [kind, options] : kinds) {
-      const bool whole = options.bits == 0 && options.dominant == all;
+    for (const RealisKind& kind : kinds) {
       const std::vector<float> amplitudes =
-          whole ? solved.amplitudes : compressed_amplitudes(*plan.system, solved.amplitudes, options);
-      add(realis_method(kind, lobes, options.dominant, options.bits), targets, base,
-          corrected(base, targets, *plan.system, amplitudes));
+          kind.is_whole() ? solved.amplitudes
+                          : compressed_amplitudes(*plan.system, solved.amplitudes, kind.options);
+      add(realis_method(kind), targets, base, corrected(base, targets, *plan.system, amplitudes));
     }
   }
 
@@ -304,6 +290,26 @@ class Predictor {
 };
 
 }  // namespace
+
+double RealisKind::bytes_per_texel() const {
+  RealisAsset asset;
+  asset.lobes.resize(static_cast<std::size_t>(lobes));
+  asset.packing.bits = options.bits == 0 ? 32 : options.bits;
+  asset.packing.dominant = options.dominant;
+  return asset.bytes_per_texel();
+}
+
+std::vector<RealisKind> realis_kinds(const std::string& name, int lobes, bool compressed, bool dither) {
+  const int half = std::max(1, lobes / 2);
+  std::vector<RealisKind> kinds{{name, lobes, {0, lobes, false}}};
+  if (compressed) {
+    kinds.push_back({name + "-8bit", lobes, {8, lobes, dither}});
+    kinds.push_back({name + "-4bit", lobes, {4, lobes, dither}});
+    kinds.push_back({fmt::format("{}-m{}", name, half), lobes, {0, half, false}});
+    kinds.push_back({fmt::format("{}-m{}-8bit", name, half), lobes, {8, half, dither}});
+  }
+  return kinds;
+}
 
 int fold_count(std::size_t lights, int asked) {
   if (asked > 0) return std::min(asked, static_cast<int>(lights));
@@ -342,7 +348,9 @@ Evidence evaluate(const StackInfo& info, const TexelBlock& sample, const BakePla
     const LightChoice kept = without(info, out);
     if (kept.empty()) continue;
     const BakePlan fold_plan = plan_bake(info, sample, kept, settings);
-    Predictor(info, sample, fold_plan, settings, options, held).predict(out);
+    Predictor predictor(info, sample, fold_plan, settings, options, held);
+    predictor.predict(out);
+    if (options.on_fold) options.on_fold(fold, {fold_plan, predictor.others()});
     if (options.progress) options.progress(static_cast<double>(fold + 1) / evidence.folds);
   }
   for (MethodEvidence found : train.methods()) {

@@ -4,9 +4,11 @@
 #define BRDFIT_BAKE_EVIDENCE_H_
 
 #include <functional>
+#include <map>
 #include <string>
 #include <vector>
 
+#include "bake/compress_block.h"
 #include "bake/plan.h"
 #include "measured/image_stack.h"
 
@@ -34,13 +36,31 @@ struct MethodEvidence {
   StackErrors held_out;
 };
 
+// What was planned without the lights of a fold.
+struct FoldPlans {
+  BakePlan plan;
+  std::map<int, BakePlan> other_lobes;  // the same base with other numbers of lobes, by that number
+};
+
 struct EvidenceOptions {
   int folds = 0;                         // 0: each light by itself up to 24 lights, else folds of about ten
   std::vector<int> other_lobes{4};       // Realis with these numbers of lobes too
   bool compressed = true;                // with 8 and 4 bits, and with half of the lobes per texel
   bool dither = true;                    // of what is rounded
   std::function<void(double)> progress;  // the share that is done, in [0, 1]; may be empty
+  std::function<void(int fold, FoldPlans plans)> on_fold;  // takes a fold's plans; may be empty
 };
+
+// One size of Realis.
+struct RealisKind {
+  std::string name;  // as MethodEvidence::name
+  int lobes = 0;
+  CompressOptions options;
+  bool is_whole() const { return options.bits == 0 && options.dominant == lobes; }
+  double bytes_per_texel() const;  // of luminance
+};
+// `name` itself, not rounded; with `compressed` also with 8 and 4 bits, and with half of the lobes per texel.
+std::vector<RealisKind> realis_kinds(const std::string& name, int lobes, bool compressed, bool dither);
 
 struct Evidence {
   int folds = 0;

@@ -3,12 +3,14 @@
 
 #include <algorithm>
 #include <map>
+#include <optional>
 
 #include "bake/capture_warnings.h"
 #include "bake/compress_block.h"
 #include "cli/asset_files.h"
 #include "cli/bake_evidence.h"
 #include "cli/bake_options.h"
+#include "cli/bake_pictures.h"
 #include "cli/progress.h"
 #include "cli/threads.h"
 #include "cli/version.h"
@@ -52,11 +54,14 @@ class Bake {
     asset_.name = a.name.empty() ? stack_.info().name : a.name;
     json_file_ = std::filesystem::path(a.output) / (asset_.name + ".realis.json");
     prepare_output(json_file_, a.common.force);
+    pictures_.emplace(a, stack_.info(), settings_, asset_.name);
+    if (!pictures_->is_wanted()) pictures_.reset();
   }
 
   int run() {
     decide();
     if (!a_.no_evidence) weigh();
+    if (pictures_) prepare_pictures();
     write();
     finish();
     return kDone;
@@ -92,8 +97,17 @@ class Bake {
       progress.step("held-out lights");
       if (interrupted()) throw std::runtime_error("interrupted; nothing is written");
     };
+    if (pictures_) {
+      options.on_fold = [&](int fold, bake::FoldPlans plans) { pictures_->keep(fold, std::move(plans)); };
+    }
     evidence_ = bake::evaluate(stack_.info(), sample_, plan_, settings_, options);
     seconds_["evidence"] = watch.seconds();
+  }
+
+  void prepare_pictures() {
+    Stopwatch watch;
+    pictures_->prepare(sample_, a_.no_evidence ? nullptr : &evidence_);
+    seconds_["pictures"] = watch.seconds();
   }
 
   void describe_asset() {
@@ -191,6 +205,7 @@ class Bake {
                       a_.common.quiet || a_.common.json);
     double decoding = 0.0;
     double solving = 0.0;
+    double drawing = 0.0;
     Stopwatch all;
     for (int row = 0; row < height; row += strip) {
       if (interrupted()) throw std::runtime_error("interrupted; nothing is written");
@@ -201,6 +216,9 @@ class Bake {
       watch = Stopwatch();
       const AssetRows out = rows_of(block);
       solving += watch.seconds();
+      watch = Stopwatch();
+      if (pictures_) pictures_->add(block);
+      drawing += watch.seconds();
       stack_.give_back(std::move(block));
       writer.write(out, rows);
       progress.step("rows");
@@ -209,7 +227,15 @@ class Bake {
     cut_values_ = writer.cut_values();
     seconds_["decode"] = decoding;
     seconds_["solve"] = solving;
-    seconds_["write"] = all.seconds() - decoding - solving;
+    seconds_["write"] = all.seconds() - decoding - solving - drawing;
+    if (!pictures_) return;
+    Stopwatch watch;
+    pictures_->finish(stack_, strip, stop_if_interrupted);
+    seconds_["pictures"] += drawing + watch.seconds();
+  }
+
+  static void stop_if_interrupted() {
+    if (interrupted()) throw std::runtime_error("interrupted; textures are written, not all pictures are");
   }
 
   void finish() {
@@ -228,6 +254,7 @@ class Bake {
       bake["folds"] = evidence_.folds;
       bake["evidence"] = evidence_json(evidence_);
     }
+    if (pictures_) bake["pictures"] = pictures_->json();
     bake["timings_seconds"] = seconds_;
     io::write_realis(json_file_, asset_, bake);
     if (a_.common.json) {
@@ -251,6 +278,7 @@ class Bake {
   TexelBlock sample_;
   bake::BakePlan plan_;
   bake::Evidence evidence_;
+  std::optional<BakePictures> pictures_;
   std::size_t cut_values_ = 0;
   std::map<std::string, double> seconds_;
 };

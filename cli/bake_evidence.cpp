@@ -8,10 +8,6 @@
 namespace brdfit::cli {
 namespace {
 
-std::string name_of(const bake::BaseModel& base) {
-  return base.material ? std::string(title_of(base.material->model())) : "Lambert";
-}
-
 // 0 where there was no error to begin with.
 double relative(double error, double without) {
   return without > 0.0 ? error / without : 0.0;
@@ -43,6 +39,10 @@ io::Json lobe_choice_json(const bake::LobeChoice& choice) {
 }
 
 }  // namespace
+
+std::string title_of(const bake::BaseModel& base) {
+  return base.material ? std::string(title_of(base.material->model())) : "Lambert";
+}
 
 io::Json evidence_json(const bake::Evidence& evidence) {
   io::Json json = io::Json::object();
@@ -103,7 +103,7 @@ std::string evidence_text(const bake::Evidence& evidence, const StackInfo& info)
 }
 
 std::string plan_text(const bake::BakePlan& plan, const StackInfo& info) {
-  std::string text = "base model: " + name_of(plan.base);
+  std::string text = "base model: " + title_of(plan.base);
   for (const bake::BaseCandidate& candidate : plan.candidates) {
     text += fmt::format("{} {} {:.2f}", &candidate == plan.candidates.data() ? " (held out, 1/255:" : ",",
                         bake::title_of(candidate), 255.0 * candidate.held_out_rmse);

@@ -10,6 +10,9 @@
 
 namespace brdfit::cli {
 
+// "Lambert", or the material's model.
+std::string title_of(const bake::BaseModel& base);
+
 // Per method: its errors; see docs/schema/realis.schema.json.
 io::Json evidence_json(const bake::Evidence& evidence);
 // What was decided: gains, base model, lobes, notes.

@@ -67,6 +67,15 @@ void add_bake_options(CLI::App& app, BakeArguments& a) {
       ->check(CLI::Range(0, 10000))
       ->capture_default_str()
       ->take_last();
+  CLI::Option* panels =
+      app.add_option("--panels", a.panels,
+                     "lights to draw as held out, beside their capture: worst, median, best (the default "
+                     "with evidence), all, "
+                     "a picture's name with or without its ending, or its place from 0; repeatable. Costs a "
+                     "bake of about 384 x 384 texels for each fold");
+  panels->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+  app.add_flag("--no-panels", a.no_panels, "no pictures of held-out lights, and no map of where Realis helps")
+      ->excludes(panels);
   app.add_option("--sample", a.sample_texels, "texels on which choices are made and evidence is taken")
       ->check(CLI::Range(64, 10000000))
       ->capture_default_str()

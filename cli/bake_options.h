@@ -32,6 +32,8 @@ struct BakeArguments {
   bool half = false;
   bool no_evidence = false;
   int folds = 0;
+  std::vector<std::string> panels;  // empty: worst, median and best, where there is evidence
+  bool no_panels = false;
   int sample_texels = 16384;
   int memory_mib = 256;
   bool spill = false;
