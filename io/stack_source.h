@@ -17,7 +17,17 @@ namespace brdfit::io {
 struct StackPicture {
   std::filesystem::path file;
   StackLight light;  // a near light's direction is filled in when the pictures' size is known
-  std::optional<double> exposure_seconds;  // > 0
+  std::optional<double> exposure_seconds;       // > 0
+  std::optional<std::filesystem::path> weight;  // how much each texel counts under this light
+  std::optional<std::filesystem::path> shadow;  // how much of the light a renderer lets reach each texel
+};
+
+// What a manifest says of the camera's noise: the variance of a sensor value v (the linear value times
+// exposure_seconds) is read_deviation^2 + shot v. Both >= 0.
+struct StatedNoise {
+  double read_deviation = 0.0;
+  double shot = 0.0;
+  friend bool operator==(const StatedNoise&, const StatedNoise&) = default;
 };
 
 struct StackSource {
@@ -29,6 +39,7 @@ struct StackSource {
   std::optional<std::filesystem::path> mask;
   std::optional<std::filesystem::path> normals;
   std::optional<std::filesystem::path> albedo;
+  std::optional<StatedNoise> noise;
   std::optional<Transfer> transfer;  // nothing: as each picture says, else as is usual
   Matrix3 color_matrix = kIdentity3;
   std::optional<double> chart_rms;  // where the matrix was computed from a chart
