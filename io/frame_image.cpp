@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <array>
+#include <cmath>
 #include <cstring>
 #include <memory>
 
@@ -89,6 +91,26 @@ std::vector<float> FrameImage::values(const PixelChoice& choice, Unusable& unusa
 std::vector<float> FrameImage::values(const PixelChoice& choice) {
   Unusable unusable;
   return values(choice, unusable);
+}
+
+std::vector<float> FrameImage::unit_vectors(const PixelChoice& choice) {
+  std::vector<float> vectors = values(choice);
+  const bool is_encoded = type() == SampleType::kUint8 || type() == SampleType::kUint16;
+  const std::size_t count = vectors.size() / 3;
+  for (std::size_t k = 0; k < count; ++k) {
+    std::array<double, 3> normal;
+    for (std::size_t c = 0; c < 3; ++c) {
+      const double value = vectors[c * count + k];
+      normal[c] = is_encoded ? 2.0 * value - 1.0 : value;
+    }
+    const double length = std::hypot(normal[0], normal[1], normal[2]);
+    // Nothing there, or far from a normal.
+    const bool is_sound = std::isfinite(length) && length > 0.5;
+    for (std::size_t c = 0; c < 3; ++c) {
+      vectors[c * count + k] = is_sound ? static_cast<float>(normal[c] / length) : 0.0F;
+    }
+  }
+  return vectors;
 }
 
 }  // namespace brdfit::io

@@ -52,6 +52,8 @@ class FrameImage {
   // [3][pixel]. unusable: appended to; those that are not finite are 0.
   std::vector<float> values(const PixelChoice& choice, Unusable& unusable);
   std::vector<float> values(const PixelChoice& choice);
+  // [3][pixel] of an image of normals, where integers hold n / 2 + 1/2: unit, or 0 where there is none.
+  std::vector<float> unit_vectors(const PixelChoice& choice);
 
   SampleType type() const { return rows_.header().type; }
   const std::string& name() const { return rows_.name(); }

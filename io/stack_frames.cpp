@@ -2,7 +2,6 @@
 #include "io/stack_frames.h"
 
 #include <algorithm>
-#include <cmath>
 
 #include "io/error.h"
 
@@ -69,26 +68,17 @@ void StackFrames::correct(FrameValues& values, const PixelChoice& choice) {
 }
 
 void StackFrames::add_normals(FrameValues& values, const PixelChoice& choice) {
-  values.normals = normals_->values(choice);
-  const SampleType type = normals_->type();
-  const bool is_encoded = type == SampleType::kUint8 || type == SampleType::kUint16;
-  const std::size_t count = values.normals.size() / 3;
+  values.normals = normals_->unit_vectors(choice);
+  const std::size_t count = choice.count(width_);
   for (std::size_t k = 0; k < count; ++k) {
-    std::array<double, 3> normal;
-    for (std::size_t c = 0; c < 3; ++c) {
-      const double value = values.normals[c * count + k];
-      normal[c] = is_encoded ? 2.0 * value - 1.0 : value;
-    }
-    const double length = std::hypot(normal[0], normal[1], normal[2]);
-    // Nothing there, or far from a normal: a stand-in that faces the camera, in a texel that does not count.
-    const bool is_sound = std::isfinite(length) && length > 0.5;
-    if (!is_sound) normal = {0.0, 0.0, 1.0};
-    if (!is_sound && values.blocked[k] == 0) {
+    const bool is_normal = values.normals[k] != 0.0F || values.normals[count + k] != 0.0F ||
+                           values.normals[2 * count + k] != 0.0F;
+    if (is_normal) continue;
+    // A stand-in that faces the camera, in a texel that does not count.
+    values.normals[2 * count + k] = 1.0F;
+    if (values.blocked[k] == 0) {
       values.blocked[k] = 1;
       ++values.bad_texels;
-    }
-    for (std::size_t c = 0; c < 3; ++c) {
-      values.normals[c * count + k] = static_cast<float>(normal[c] / (is_sound ? length : 1.0));
     }
   }
 }
