@@ -46,12 +46,6 @@ std::optional<bake::SensorNoise> noise_of(const BakeArguments& a, const io::Stac
   return noise;
 }
 
-std::size_t count_of(const io::StackSource& source,
-                     std::optional<std::filesystem::path> io::StackPicture::*map) {
-  const auto has = [map](const io::StackPicture& picture) { return (picture.*map).has_value(); };
-  return static_cast<std::size_t>(std::count_if(source.pictures.begin(), source.pictures.end(), has));
-}
-
 }  // namespace
 
 BakeStack::BakeStack(const BakeArguments& a) : files_(open_files(a)), weighted_(files_) {
@@ -72,11 +66,10 @@ void BakeStack::weigh_by_noise(const BakeArguments& a) {
 }
 
 void BakeStack::weigh_by_contours(const BakeArguments& a) {
-  std::vector<std::optional<std::filesystem::path>> maps;
   const io::StackSource& source = files_.source();
-  for (const io::StackPicture& picture : source.pictures) maps.push_back(picture.shadow);
   shadows_ = std::make_unique<io::PictureMaps>(
-      maps, io::FrameSize{info().width, info().height, source.pictures.front().file.filename().string()});
+      source.maps_of(&io::StackPicture::shadow),
+      io::FrameSize{info().width, info().height, source.pictures.front().file.filename().string()});
   ContourPassOptions options;
   options.strip_rows = std::max(1, strip_rows());
   options.memory_bytes = memory_bytes(a) / 2;
@@ -90,11 +83,11 @@ void BakeStack::weigh_by_contours(const BakeArguments& a) {
 
 io::Json BakeStack::weights_json() const {
   io::Json json;
-  if (const std::size_t maps = count_of(files_.source(), &io::StackPicture::weight); maps > 0)
+  if (const std::size_t maps = files_.source().count_of(&io::StackPicture::weight); maps > 0)
     json["maps"] = maps;
   if (noise_) json["noise"] = {{"read_deviation", noise_->read_deviation}, {"shot", noise_->shot}};
   if (contours_) {
-    json["contours"] = {{"shadow_maps", count_of(files_.source(), &io::StackPicture::shadow)},
+    json["contours"] = {{"shadow_maps", files_.source().count_of(&io::StackPicture::shadow)},
                         {"lowered_values", contours_->lowered()}};
   }
   return json;
@@ -102,13 +95,13 @@ io::Json BakeStack::weights_json() const {
 
 std::string BakeStack::weights_text() const {
   std::string text;
-  if (const std::size_t maps = count_of(files_.source(), &io::StackPicture::weight); maps > 0) {
+  if (const std::size_t maps = files_.source().count_of(&io::StackPicture::weight); maps > 0) {
     text += fmt::format("weights: maps of {} of {} pictures\n", maps, info().lights.size());
   }
   if (noise_) text += fmt::format("weights: noise {:g}, {:g}\n", noise_->read_deviation, noise_->shot);
   if (contours_) {
     text += fmt::format("weights: {} values lie between shadow contours; {} pictures have a shadow map\n",
-                        contours_->lowered(), count_of(files_.source(), &io::StackPicture::shadow));
+                        contours_->lowered(), files_.source().count_of(&io::StackPicture::shadow));
   }
   return text;
 }

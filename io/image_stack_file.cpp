@@ -70,16 +70,12 @@ class FileStack::Impl {
  public:
   Impl(StackSource source, FileStackOptions options)
       : source_(std::move(source)), options_(std::move(options)) {
-    std::vector<std::optional<std::filesystem::path>> weights;
-    for (const StackPicture& picture : source_.pictures) weights.push_back(picture.weight);
-    const auto maps =
-        std::count_if(weights.begin(), weights.end(), [](const auto& w) { return w.has_value(); });
-    allow_files(source_.pictures.size() + static_cast<std::size_t>(maps), source_.file.string());
+    allow_files(source_.pictures.size() + source_.count_of(&StackPicture::weight), source_.file.string());
     open_pictures();
     describe();
     frames_.emplace(source_, options_.transfer ? options_.transfer : source_.transfer, info_.width,
                     info_.height);
-    weights_.emplace(weights,
+    weights_.emplace(source_.maps_of(&StackPicture::weight),
                      FrameSize{info_.width, info_.height, source_.pictures.front().file.filename().string()});
     info_.has_normals = frames_->has_normals();
     info_.has_albedo = frames_->has_albedo();

@@ -2,6 +2,8 @@
 #ifndef BRDFIT_IO_STACK_SOURCE_H_
 #define BRDFIT_IO_STACK_SOURCE_H_
 
+#include <algorithm>
+#include <cstddef>
 #include <filesystem>
 #include <optional>
 #include <string>
@@ -46,6 +48,18 @@ struct StackSource {
   Vec3 view{0.0, 0.0, 1.0};
   ImagePlane plane;
   std::string units;  // of positions, pixel_size and origin; empty where there are none
+
+  // The maps of one kind, per picture; and how many pictures have one.
+  std::vector<std::optional<std::filesystem::path>> maps_of(
+      std::optional<std::filesystem::path> StackPicture::*map) const {
+    std::vector<std::optional<std::filesystem::path>> maps;
+    for (const StackPicture& picture : pictures) maps.push_back(picture.*map);
+    return maps;
+  }
+  std::size_t count_of(std::optional<std::filesystem::path> StackPicture::*map) const {
+    return static_cast<std::size_t>(std::count_if(
+        pictures.begin(), pictures.end(), [map](const StackPicture& p) { return (p.*map).has_value(); }));
+  }
 };
 
 // A file by its ending: .lp, or JSON. Throws IoError (kInput), always one line: what cannot be read or

@@ -141,6 +141,8 @@ TEST_F(CliBakeWeights, AMapOfOnesChangesNoByte) {
   change_manifest([](io::Json& m) { m["images"][4]["weight"] = "ones.png"; });
   EXPECT_EQ(baked_bytes(), plain);
   EXPECT_EQ(description()["weights"]["maps"], 1);
+  EXPECT_THAT(run("info " + quoted("stack/bumps.olat.json")).out,
+              HasSubstr("beside them: normals, albedo, weights"));
 }
 
 TEST_F(CliBakeWeights, WeightZeroOnADamagedRegionIsAsIfItHadNotBeenSeen) {
