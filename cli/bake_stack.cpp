@@ -67,7 +67,7 @@ void BakeStack::weigh_by_noise(const BakeArguments& a) {
 
 void BakeStack::weigh_by_contours(const BakeArguments& a) {
   const io::StackSource& source = files_.source();
-  shadows_ = std::make_unique<io::PictureMaps>(
+  io::PictureMaps shadows(
       source.maps_of(&io::StackPicture::shadow),
       io::FrameSize{info().width, info().height, source.pictures.front().file.filename().string()});
   ContourPassOptions options;
@@ -77,7 +77,7 @@ void BakeStack::weigh_by_contours(const BakeArguments& a) {
     if (interrupted()) throw std::runtime_error("interrupted; nothing is written");
   };
   say(a.common, "looking for shadow contours");
-  contours_ = std::make_unique<ContourPass>(weighted_, *shadows_, options);
+  contours_ = std::make_unique<ContourPass>(weighted_, std::move(shadows), options);
   weighted_.add({[this](TexelBlock& block) { contours_->weigh(block); }, false});
 }
 

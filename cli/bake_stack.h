@@ -46,7 +46,6 @@ class BakeStack : public ImageStack {
   io::FileStack files_;
   bake::WeightedStack weighted_;
   std::optional<bake::SensorNoise> noise_;
-  std::unique_ptr<io::PictureMaps> shadows_;
   std::unique_ptr<ContourPass> contours_;
 };
 

@@ -5,9 +5,10 @@
 #include <tbb/task_arena.h>
 
 #include <algorithm>
-#include <atomic>
 #include <cmath>
+#include <optional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "bake/photometric_stereo.h"
@@ -77,15 +78,17 @@ struct Pair {
 
 class ContourPass::Impl {
  public:
-  Impl(ImageStack& stack, io::PictureMaps& shadows, const ContourPassOptions& options)
+  Impl(ImageStack& stack, io::PictureMaps shadows, const ContourPassOptions& options)
       : info_(stack.info()),
-        shadows_(shadows),
         options_(options),
         file_(options.folder.empty() ? std::filesystem::temp_directory_path() : options.folder),
         luminance_(file_, info_.lights.size(), info_.texel_count()),
         surface_(file_, kSurfacePlanes, info_.texel_count()),
         weights_(file_, info_.lights.size(), info_.texel_count()),
+        shadows_(std::move(shadows)),
         lowered_(info_.lights.size()) {
+    // Parts overlap, and most formats decode from the top alone.
+    shadows_->use_spill(true, [this]() -> io::SpillFile& { return file_; });
     put_aside(stack);
     const int parallel =
         static_cast<int>(std::clamp<std::size_t>(options_.memory_bytes / part_bytes(), 1, 4096));
@@ -94,6 +97,7 @@ class ContourPass::Impl {
       sum_variation();
       find_weights();
     });
+    shadows_.reset();
   }
 
   void weigh(TexelBlock& block) const {
@@ -177,7 +181,7 @@ class ContourPass::Impl {
       pair.unshadowed[k] = static_cast<float>(white * from.falloff * std::max(cos_i, 0.0));
     }
     pair.shown = pair.unshadowed;
-    const std::vector<float> reaches = shadows_.read(light, {part.first, part.height, {}});
+    const std::vector<float> reaches = shadows_->read(light, {part.first, part.height, {}});
     for (std::size_t k = 0; k < reaches.size(); ++k) pair.shown[k] *= reaches[k];
     return pair;
   }
@@ -238,19 +242,19 @@ class ContourPass::Impl {
   }
 
   const StackInfo& info_;
-  io::PictureMaps& shadows_;
   ContourPassOptions options_;
   io::SpillFile file_;
   PlaneFile<float> luminance_;
   PlaneFile<float> surface_;
   PlaneFile<std::uint8_t> weights_;
+  std::optional<io::PictureMaps> shadows_;  // while the pass lasts
   std::vector<bake::VariationSums> seen_;
   std::vector<bake::VariationSums> shown_;
   std::vector<std::size_t> lowered_;  // per light
 };
 
-ContourPass::ContourPass(ImageStack& stack, io::PictureMaps& shadows, const ContourPassOptions& options)
-    : impl_(std::make_unique<Impl>(stack, shadows, options)) {}
+ContourPass::ContourPass(ImageStack& stack, io::PictureMaps shadows, const ContourPassOptions& options)
+    : impl_(std::make_unique<Impl>(stack, std::move(shadows), options)) {}
 
 ContourPass::~ContourPass() = default;
 

@@ -32,7 +32,7 @@ class ContourPass {
  public:
   // Reads the stack once. shadows: maps per picture. Throws what the stack throws, and io::IoError (kOutput)
   // when there is no room.
-  ContourPass(ImageStack& stack, io::PictureMaps& shadows, const ContourPassOptions& options);
+  ContourPass(ImageStack& stack, io::PictureMaps shadows, const ContourPassOptions& options);
   ~ContourPass();
 
   // Multiplies the weights of a block of the stack. Where no contours differ it leaves the block as it is.

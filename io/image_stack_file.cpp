@@ -70,7 +70,9 @@ class FileStack::Impl {
  public:
   Impl(StackSource source, FileStackOptions options)
       : source_(std::move(source)), options_(std::move(options)) {
-    allow_files(source_.pictures.size() + source_.count_of(&StackPicture::weight), source_.file.string());
+    allow_files(source_.pictures.size() + source_.count_of(&StackPicture::weight) +
+                    source_.count_of(&StackPicture::shadow),
+                source_.file.string());
     open_pictures();
     describe();
     frames_.emplace(source_, options_.transfer ? options_.transfer : source_.transfer, info_.width,

@@ -95,8 +95,7 @@ class ContourPassTest : public testing::Test {
 
 TEST_F(ContourPassTest, WeightsAreThoseOfWholePictures) {
   MemoryStack photographs = stack();
-  io::PictureMaps maps = shadows();
-  const ContourPass pass(photographs, maps, {});
+  const ContourPass pass(photographs, shadows(), {});
   const std::vector<float> weights = weights_of(pass, photographs);
   const std::vector<float> whole = expected();
   std::size_t lowered = 0;
@@ -112,13 +111,13 @@ TEST_F(ContourPassTest, WeightsAreThoseOfWholePictures) {
 
 TEST_F(ContourPassTest, StripsAndMemoryChangeNoWeight) {
   MemoryStack photographs = stack();
-  io::PictureMaps maps = shadows();
-  const std::vector<float> expected_weights = weights_of(ContourPass(photographs, maps, {}), photographs);
+  const std::vector<float> expected_weights =
+      weights_of(ContourPass(photographs, shadows(), {}), photographs);
   for (const int rows : {1, 7, 150}) {
     ContourPassOptions options;
     options.strip_rows = rows;
     options.memory_bytes = 1;
-    const ContourPass pass(photographs, maps, options);
+    const ContourPass pass(photographs, shadows(), options);
     EXPECT_EQ(weights_of(pass, photographs), expected_weights) << rows;
     TexelBlock sample = photographs.read_texels(std::vector<std::uint32_t>{0, 9, 10, 1000, 2699});
     pass.weigh(sample);
@@ -132,8 +131,7 @@ TEST_F(ContourPassTest, StripsAndMemoryChangeNoWeight) {
 
 TEST_F(ContourPassTest, LeavesABlockAloneWhereNothingDiffers) {
   MemoryStack photographs = stack();
-  io::PictureMaps none = shadows(false);
-  const ContourPass pass(photographs, none, {});
+  const ContourPass pass(photographs, shadows(false), {});
   EXPECT_EQ(pass.lowered(), 0U);
   EXPECT_TRUE(weights_of(pass, photographs).empty());
 }
