@@ -11,6 +11,7 @@
 #include <utility>
 #include <vector>
 
+#include "bake/luminance.h"
 #include "bake/photometric_stereo.h"
 #include "io/spill_file.h"
 
@@ -25,7 +26,7 @@ constexpr std::size_t kBytesAtOnce = std::size_t{1} << 16;
 constexpr std::size_t kSurfacePlanes = 6;
 
 double luminance(double red, double green, double blue) {
-  return 0.2126 * red + 0.7152 * green + 0.0722 * blue;
+  return bake::kLuminance[0] * red + bake::kLuminance[1] * green + bake::kLuminance[2] * blue;
 }
 
 // Planes of values over the whole picture, in a temporary file.
