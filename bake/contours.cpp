@@ -47,33 +47,40 @@ double litness(const ShadowPicture& picture, std::size_t at) {
   return std::clamp(static_cast<double>(picture.luminance[at]) / picture.unshadowed[at], 0.0, 1.0);
 }
 
-// Average variation of lit and of shadowed areas, without the texels that have both around them.
-struct Averages {
-  double lit = 0.0;
-  double shadowed = 0.0;
-};
-
-Averages average_variation(std::span<const float> v, std::span<const std::uint8_t> is_lit,
-                           std::span<const std::uint8_t> is_border) {
-  double sum[2] = {0.0, 0.0};
-  double count[2] = {0.0, 0.0};
-  for (std::size_t k = 0; k < v.size(); ++k) {
-    if (is_border[k] != 0) continue;
-    sum[is_lit[k]] += v[k];
-    count[is_lit[k]] += 1.0;
-  }
-  return {count[1] > 0.0 ? sum[1] / count[1] : 0.0, count[0] > 0.0 ? sum[0] / count[0] : 0.0};
+std::vector<std::uint8_t> lit_texels(const ShadowPicture& picture) {
+  std::vector<std::uint8_t> is_lit(picture.luminance.size());
+  for (std::size_t k = 0; k < is_lit.size(); ++k) is_lit[k] = litness(picture, k) > 0.5 ? 1 : 0;
+  return is_lit;
 }
 
-// Distance in pixels to the nearest contour; infinite where there is none.
+// Texels that have lit and shadowed ones about them.
+std::vector<std::uint8_t> border_texels(std::span<const std::uint8_t> is_lit, int width, int height) {
+  std::vector<std::uint8_t> is_border(is_lit.size(), 0);
+  for_texels(width, height, [&](int x, int y, std::size_t at) {
+    for_neighbours(x, y, width, height, [&](std::size_t neighbour) {
+      if (is_lit[neighbour] != is_lit[at]) is_border[at] = 1;
+    });
+  });
+  return is_border;
+}
+
+void check(const ShadowPicture& picture, int width, int height) {
+  check_size(picture.luminance.size(), width, height);
+  check_size(picture.unshadowed.size(), width, height);
+  check_size(picture.facing.size(), width, height);
+}
+
+bool is_any(std::span<const std::uint8_t> flags) {
+  return std::ranges::any_of(flags, [](std::uint8_t flag) { return flag != 0; });
+}
+
+// Distance in pixels to the nearest contour, of which there is one at least.
 cv::Mat distance_to(std::span<const std::uint8_t> is_contour, int width, int height) {
   cv::Mat empty(height, width, CV_8U);
   std::transform(is_contour.begin(), is_contour.end(), empty.begin<std::uint8_t>(),
                  [](std::uint8_t contour) { return static_cast<std::uint8_t>(contour != 0 ? 0 : 1); });
-  cv::Mat distance(height, width, CV_32F, cv::Scalar(std::numeric_limits<float>::infinity()));
-  if (std::ranges::any_of(is_contour, [](std::uint8_t contour) { return contour != 0; })) {
-    cv::distanceTransform(empty, distance, cv::DIST_L2, cv::DIST_MASK_PRECISE);
-  }
+  cv::Mat distance;
+  cv::distanceTransform(empty, distance, cv::DIST_L2, cv::DIST_MASK_PRECISE);
   return distance;
 }
 
@@ -105,31 +112,53 @@ std::vector<float> variation(std::span<const float> luminance, int width, int he
   return v;
 }
 
+void add_variation(VariationSums& sums, const ShadowPicture& part, int width, int height, const Rows& rows) {
+  check(part, width, height);
+  if (rows.first < 0 || rows.first > rows.last || rows.last > height) {
+    throw std::invalid_argument("contours: rows outside the part");
+  }
+  const std::vector<float> v = variation(part.luminance, width, height);
+  const std::vector<std::uint8_t> is_lit = lit_texels(part);
+  const std::vector<std::uint8_t> is_border = border_texels(is_lit, width, height);
+  const auto stride = static_cast<std::size_t>(width);
+  for (std::size_t k = static_cast<std::size_t>(rows.first) * stride;
+       k < static_cast<std::size_t>(rows.last) * stride; ++k) {
+    if (is_border[k] != 0) continue;
+    sums.sum[is_lit[k]] += v[k];
+    sums.count[is_lit[k]] += 1.0;
+  }
+}
+
 ShadowContours find_contours(const ShadowPicture& picture, int width, int height,
                              const ContourOptions& options) {
+  VariationSums sums;
+  add_variation(sums, picture, width, height, {0, height});
+  return find_contours(picture, width, height, sums, options);
+}
+
+ShadowContours find_contours(const ShadowPicture& part, int width, int height, const VariationSums& sums,
+                             const ContourOptions& options) {
   check(options);
-  check_size(picture.luminance.size(), width, height);
-  check_size(picture.unshadowed.size(), width, height);
-  check_size(picture.facing.size(), width, height);
-  const std::vector<float> v = variation(picture.luminance, width, height);
+  check(part, width, height);
+  const std::vector<float> v = variation(part.luminance, width, height);
   ShadowContours result;
-  result.is_lit.resize(v.size());
+  result.is_lit = lit_texels(part);
   result.is_contour.assign(v.size(), 0);
-  for (std::size_t k = 0; k < v.size(); ++k) result.is_lit[k] = litness(picture, k) > 0.5 ? 1 : 0;
-  std::vector<std::uint8_t> is_border(v.size(), 0);
-  for_texels(width, height, [&](int x, int y, std::size_t at) {
-    for_neighbours(x, y, width, height, [&](std::size_t neighbour) {
-      if (result.is_lit[neighbour] != result.is_lit[at]) is_border[at] = 1;
-    });
-  });
-  const Averages average = average_variation(v, result.is_lit, is_border);
+  const std::vector<std::uint8_t> is_border = border_texels(result.is_lit, width, height);
+  const auto average = [&](std::size_t kind) {
+    return sums.count[kind] > 0.0 ? sums.sum[kind] / sums.count[kind] : 0.0;
+  };
   for (std::size_t k = 0; k < v.size(); ++k) {
     if (is_border[k] == 0) continue;
-    const double likelihood = std::max(static_cast<double>(picture.facing[k]), 0.0);
-    const double usual = std::lerp(average.shadowed, average.lit, litness(picture, k));
+    const double likelihood = std::max(static_cast<double>(part.facing[k]), 0.0);
+    const double usual = std::lerp(average(0), average(1), litness(part, k));
     if (likelihood * v[k] > options.threshold * usual) result.is_contour[k] = 1;
   }
   return result;
+}
+
+int contour_halo(const ContourOptions& options) {
+  return static_cast<int>(std::ceil(options.reach)) + 1;
 }
 
 std::vector<float> contour_weights(const ShadowContours& reference, const ShadowContours& render, int width,
@@ -138,9 +167,10 @@ std::vector<float> contour_weights(const ShadowContours& reference, const Shadow
   for (const auto* size : {&reference.is_lit, &reference.is_contour, &render.is_lit, &render.is_contour}) {
     check_size(size->size(), width, height);
   }
+  std::vector<float> weights(reference.is_lit.size(), 1.0F);
+  if (!is_any(reference.is_contour) || !is_any(render.is_contour)) return weights;
   const cv::Mat to_reference = distance_to(reference.is_contour, width, height);
   const cv::Mat to_render = distance_to(render.is_contour, width, height);
-  std::vector<float> weights(reference.is_lit.size(), 1.0F);
   for_texels(width, height, [&](int x, int y, std::size_t at) {
     if (reference.is_lit[at] == render.is_lit[at]) return;
     const double gap = to_reference.at<float>(y, x) + to_render.at<float>(y, x);

@@ -4,6 +4,7 @@
 #ifndef BRDFIT_BAKE_CONTOURS_H_
 #define BRDFIT_BAKE_CONTOURS_H_
 
+#include <array>
 #include <cstdint>
 #include <span>
 #include <string>
@@ -31,8 +32,25 @@ struct ShadowPicture {
   std::span<const float> facing;  // n.l of each texel
 };
 
+// Rows [first, last) of a picture, or of a part of it that is made of whole rows.
+struct Rows {
+  int first = 0;
+  int last = 0;
+};
+
 // V = mean of |neighbour - centre| over the up to eight neighbours of each texel.
 std::vector<float> variation(std::span<const float> luminance, int width, int height);
+
+// Variation of lit and of shadowed areas, away from where they meet. Rows of a picture that are added in
+// their order give the same to the bit however they are cut into parts.
+struct VariationSums {
+  std::array<double, 2> sum{};    // of V: in shadow, lit
+  std::array<double, 2> count{};  // of texels
+};
+
+// Adds rows of a part of a picture; one row on either side of them must be in the part, unless they are the
+// picture's own first or last.
+void add_variation(VariationSums& sums, const ShadowPicture& part, int width, int height, const Rows& rows);
 
 struct ShadowContours {
   std::vector<std::uint8_t> is_lit;
@@ -45,6 +63,14 @@ struct ShadowContours {
 // shadow. Throws std::invalid_argument where sizes disagree.
 ShadowContours find_contours(const ShadowPicture& picture, int width, int height,
                              const ContourOptions& options = {});
+
+// The same of a part of a picture, with the sums of all of it. Wrong in the part's first and last row, unless
+// they are the picture's.
+ShadowContours find_contours(const ShadowPicture& part, int width, int height, const VariationSums& sums,
+                             const ContourOptions& options);
+
+// Rows on either side of some others that must be in a part, so that the weights of those are the picture's.
+int contour_halo(const ContourOptions& options);
 
 // Weights in (0, 1] of texels: less the farther apart the two contours are for those in between, that is lit
 // in one picture and shadowed in the other with both contours within reach; 1 elsewhere.

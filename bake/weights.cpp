@@ -1,4 +1,4 @@
-// Weights from noise, saturation and maps.
+// Weights from noise and saturation.
 #include "bake/weights.h"
 
 #include <algorithm>
@@ -7,10 +7,6 @@
 
 namespace brdfit::bake {
 namespace {
-
-void need_weights(TexelBlock& block) {
-  if (block.weight.empty()) block.weight.assign(block.lights * block.count(), 1.0F);
-}
 
 double saturation_weight(const SensorNoise& noise, double value) {
   if (!std::isfinite(noise.saturation)) return 1.0;
@@ -53,29 +49,23 @@ void weigh_by_noise(TexelBlock& block, const SensorNoise& noise, std::span<const
   if (!exposure.empty() && exposure.size() != block.lights) {
     throw std::invalid_argument("weigh_by_noise: one exposure per light is needed");
   }
-  need_weights(block);
+  if (block.channels != 3) throw std::invalid_argument("weigh_by_noise: the block holds no colours");
+  const double longest = exposure.empty() ? 1.0 : *std::max_element(exposure.begin(), exposure.end());
+  if (std::any_of(exposure.begin(), exposure.end(), [](double e) { return !(e > 0.0); })) {
+    throw std::invalid_argument("weigh_by_noise: an exposure is not positive");
+  }
+  if (block.weight.empty()) block.weight.assign(block.lights * block.count(), 1.0F);
   for (std::size_t light = 0; light < block.lights; ++light) {
     const double scale = exposure.empty() ? 1.0 : exposure[light];
+    const double share = scale * scale / (longest * longest);
     for (std::size_t t = 0; t < block.count(); ++t) {
       float& weight = block.weight[light * block.count() + t];
       if (weight <= 0.0F) continue;
       const float brightest =
           std::max({block.plane(light, 0)[t], block.plane(light, 1)[t], block.plane(light, 2)[t]});
-      weight *= static_cast<float>(noise_weight(noise, scale * brightest));
+      weight *= static_cast<float>(share * noise_weight(noise, scale * brightest));
     }
   }
-}
-
-void weigh_by_map(TexelBlock& block, std::size_t light, std::span<const float> map) {
-  if (light >= block.lights) throw std::invalid_argument("weigh_by_map: no such light");
-  const auto is_weight = [](float w) { return w >= 0.0F && w <= 1.0F; };
-  for (const std::uint32_t texel : block.texels) {
-    if (texel >= map.size()) throw std::invalid_argument("weigh_by_map: the map is smaller than the picture");
-    if (!is_weight(map[texel])) throw std::invalid_argument("weigh_by_map: a weight is not in [0, 1]");
-  }
-  need_weights(block);
-  for (std::size_t t = 0; t < block.count(); ++t)
-    block.weight[light * block.count() + t] *= map[block.texels[t]];
 }
 
 }  // namespace brdfit::bake

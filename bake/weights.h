@@ -1,5 +1,5 @@
-// What a value counts: sensor noise, saturation, and weights that a user or another stage supplies. All of
-// them multiply into the weights of a block.
+// What a value counts by the noise of the sensor that saw it, and by saturation. Multiplies into the weights
+// of a block.
 #ifndef BRDFIT_BAKE_WEIGHTS_H_
 #define BRDFIT_BAKE_WEIGHTS_H_
 
@@ -28,14 +28,12 @@ struct SensorNoise {
 // parameters 1 below the knee.
 double noise_weight(const SensorNoise& noise, double value);
 
-// Multiplies the weights of all values of a block. The brightest channel counts. exposure: what radiances of
-// each light's picture are multiplied by to be sensor values; empty: 1. Throws std::invalid_argument where
-// sizes disagree or the noise is invalid.
+// Multiplies the weights of all values of a block, which holds colours. The brightest channel counts.
+// exposure: what radiances of each light's picture are multiplied by to be sensor values; empty: 1. A
+// radiance has its sensor value's variance over the exposure squared, so weights are those of the sensor
+// values times (exposure / longest exposure)^2. Throws std::invalid_argument where sizes disagree, exposures
+// are not positive or the noise is invalid.
 void weigh_by_noise(TexelBlock& block, const SensorNoise& noise, std::span<const double> exposure = {});
-
-// Multiplies the weights of one light by a map over the whole picture (index y * width + x), in [0, 1].
-// Throws std::invalid_argument where the map is too small, or a value is outside [0, 1] or not finite.
-void weigh_by_map(TexelBlock& block, std::size_t light, std::span<const float> map);
 
 }  // namespace brdfit::bake
 

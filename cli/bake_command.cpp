@@ -11,18 +11,15 @@
 #include "cli/bake_evidence.h"
 #include "cli/bake_options.h"
 #include "cli/bake_pictures.h"
+#include "cli/bake_stack.h"
 #include "cli/progress.h"
 #include "cli/threads.h"
 #include "cli/version.h"
-#include "io/image_stack_file.h"
 #include "io/realis_json.h"
 #include "io/sha256.h"
 
 namespace brdfit::cli {
 namespace {
-
-// What a strip needs beside its pixels: render, problem, solution.
-constexpr std::size_t kMemoryPerPixelMemory = 5;
 
 // Texels spread evenly over the picture: all of them where there are few.
 std::vector<std::uint32_t> sample_of(const StackInfo& info, std::size_t count) {
@@ -34,23 +31,11 @@ std::vector<std::uint32_t> sample_of(const StackInfo& info, std::size_t count) {
   return sample;
 }
 
-io::FileStack open_stack(const BakeArguments& a) {
-  io::FileStackOptions options;
-  if (!a.transfer.empty()) {
-    options.transfer = io::transfer_from(a.transfer);
-    if (!options.transfer)
-      throw UsageError(fmt::format("--transfer {} is not {}", a.transfer, io::kTransferNames));
-  }
-  options.memory_bytes = (static_cast<std::size_t>(a.memory_mib) << 20) / kMemoryPerPixelMemory;
-  options.spill = a.spill;
-  return io::FileStack(io::read_stack_source(a.stack), options);
-}
-
 // One bake from beginning to end.
 class Bake {
  public:
   Bake(const BakeArguments& a, std::string command_line)
-      : a_(a), settings_(bake_settings_of(a)), command_line_(std::move(command_line)), stack_(open_stack(a)) {
+      : a_(a), settings_(bake_settings_of(a)), command_line_(std::move(command_line)), stack_(a) {
     asset_.name = a.name.empty() ? stack_.info().name : a.name;
     json_file_ = std::filesystem::path(a.output) / (asset_.name + ".realis.json");
     prepare_output(json_file_, a.common.force);
@@ -249,6 +234,7 @@ class Bake {
     bake["plan"] = plan_json(plan_, stack_.info());
     const io::PixelCounts& counts = stack_.counts();
     bake["pixels"] = {{"saturated", counts.saturated}, {"non_finite", counts.non_finite}};
+    if (io::Json weights = stack_.weights_json(); !weights.is_null()) bake["weights"] = std::move(weights);
     if (cut_values_ > 0) bake["values_cut_to_half"] = cut_values_;
     if (!a_.no_evidence) {
       bake["folds"] = evidence_.folds;
@@ -263,7 +249,7 @@ class Bake {
       bake["bytes_per_texel"] = asset_.bytes_per_texel();
       fmt::print("{}\n", bake.dump(2));
     } else if (!a_.common.quiet) {
-      fmt::print("{}{}", plan_text(plan_, stack_.info()),
+      fmt::print("{}{}{}", stack_.weights_text(), plan_text(plan_, stack_.info()),
                  a_.no_evidence ? "" : evidence_text(evidence_, stack_.info()));
       fmt::print("{}: {:.1f} bytes per texel at run time\n", json_file_.string(), asset_.bytes_per_texel());
     }
@@ -272,7 +258,7 @@ class Bake {
   const BakeArguments& a_;
   bake::BakeSettings settings_;
   std::string command_line_;
-  io::FileStack stack_;
+  BakeStack stack_;
   RealisAsset asset_;
   std::filesystem::path json_file_;
   TexelBlock sample_;

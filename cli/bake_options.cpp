@@ -85,6 +85,16 @@ void add_bake_options(CLI::App& app, BakeArguments& a) {
       ->capture_default_str()
       ->take_last();
   app.add_flag("--spill", a.spill, "keep decoded pixels in a temporary file between the passes");
+  app.add_option(
+         "--noise", a.noise,
+         "READ,SHOT: a sensor value v has the variance READ^2 + SHOT v, and counts by its inverse; in "
+         "place of what the stack says")
+      ->delimiter(',')
+      ->expected(2);
+  app.add_flag(
+      "--contours", a.contours,
+      "texels between the shadow contours of a photograph and of its render count less; costs a pass "
+      "over the pictures and a temporary file");
   app.add_option("--fade-albedo", a.fade_albedo, "distance in linear albedo at which the correction is gone")
       ->check(CLI::PositiveNumber)
       ->capture_default_str()

@@ -37,6 +37,8 @@ struct BakeArguments {
   int sample_texels = 16384;
   int memory_mib = 256;
   bool spill = false;
+  std::vector<double> noise;  // read deviation and shot; empty: what the stack says
+  bool contours = false;
   double fade_albedo = RealisFade{}.albedo_range;
   double fade_normal_deg = RealisFade{}.normal_range_deg;
   std::uint64_t seed = 1;

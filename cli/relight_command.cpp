@@ -7,6 +7,7 @@
 #include "cli/asset_files.h"
 #include "cli/common.h"
 #include "cli/picture_file.h"
+#include "cli/run_time_surface.h"
 #include "cli/threads.h"
 #include "io/realis_json.h"
 #include "render/view.h"
@@ -22,16 +23,34 @@ struct Arguments {
   std::string output;
   std::vector<double> light{0.0, 0.0, 1.0};
   std::vector<double> intensity{1.0, 1.0, 1.0};
+  std::string albedo;
+  std::string normals;
+  std::vector<double> albedo_scale{1.0, 1.0, 1.0};
   bool base_only = false;
   bool unpacked = false;
   double exposure_stops = 0.0;
 };
 
+void require_not_negative(const std::vector<double>& values, const std::string& option) {
+  for (const double value : values) {
+    if (!(value >= 0.0) || !std::isfinite(value)) {
+      throw UsageError(fmt::format("{} holds {}, not a number of 0 or more", option, value));
+    }
+  }
+}
+
 bake::RunTimeLight light_of(const Arguments& a) {
+  require_not_negative(a.intensity, "--intensity");
   const double length = std::hypot(a.light[0], a.light[1], a.light[2]);
   if (!(length > 0.0) || !std::isfinite(length)) throw UsageError("--light is no direction");
   return {{a.light[0] / length, a.light[1] / length, a.light[2] / length},
           {a.intensity[0], a.intensity[1], a.intensity[2]}};
+}
+
+RunTimeSurface surface_of(const Arguments& a, const RealisAsset& asset) {
+  require_not_negative(a.albedo_scale, "--albedo-scale");
+  return RunTimeSurface(asset,
+                        {a.albedo, a.normals, {a.albedo_scale[0], a.albedo_scale[1], a.albedo_scale[2]}});
 }
 
 void write_relit(const std::filesystem::path& file, const render::Image& image, double exposure_stops) {
@@ -46,16 +65,19 @@ void write_relit(const std::filesystem::path& file, const render::Image& image, 
 
 int run(const Arguments& a) {
   const ThreadLimit threads(a.common.threads);
+  const bake::RunTimeLight light = light_of(a);
   const RealisAsset asset = io::read_realis(a.asset);
   const std::filesystem::path file = a.output.empty() ? asset.name + ".relit.png" : a.output;
   prepare_output(file, a.common.force);
   AssetReader reader(asset, std::filesystem::path(a.asset).parent_path(), !a.unpacked);
-  const bake::RunTimeLight light = light_of(a);
+  RunTimeSurface surface = surface_of(a, asset);
   render::Image image(asset.width, asset.height);
   std::fill(image.state.begin(), image.state.end(), render::PixelState::kValue);
   for (int row = 0; row < asset.height; row += kRowsAtOnce) {
     const int rows = std::min(kRowsAtOnce, asset.height - row);
-    const bake::Relit relit = bake::relight(asset, reader.read(row, rows), light);
+    bake::RunTimeTexels texels = reader.read(row, rows);
+    surface.replace(texels, row, rows);
+    const bake::Relit relit = bake::relight(asset, texels, light);
     const std::vector<float>& planes = a.base_only ? relit.render : relit.corrected;
     const std::size_t count = planes.size() / 3;
     const std::size_t first = static_cast<std::size_t>(row) * static_cast<std::size_t>(asset.width);
@@ -89,6 +111,20 @@ Command add_relight_command(CLI::App& program) {
       ->expected(3)
       ->capture_default_str();
   app->add_option("--intensity", a->intensity, "linear red,green,blue")
+      ->delimiter(',')
+      ->expected(3)
+      ->capture_default_str();
+  app->add_option(
+         "--albedo", a->albedo,
+         "picture of the asset's size: the albedo at run time. The correction fades as it leaves the "
+         "baked one (bake --fade-albedo)")
+      ->take_last();
+  app->add_option(
+         "--normals", a->normals,
+         "picture of the asset's size: the normals at run time, as floats or n * 0.5 + 0.5; likewise "
+         "(bake --fade-normal)")
+      ->take_last();
+  app->add_option("--albedo-scale", a->albedo_scale, "red,green,blue that the albedo is multiplied by")
       ->delimiter(',')
       ->expected(3)
       ->capture_default_str();

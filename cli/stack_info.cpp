@@ -108,6 +108,8 @@ std::vector<std::string> frames_of(const io::StackSource& source) {
   if (source.mask) frames.emplace_back("mask");
   if (source.normals) frames.emplace_back("normals");
   if (source.albedo) frames.emplace_back("albedo");
+  if (source.count_of(&io::StackPicture::weight) > 0) frames.emplace_back("weights");
+  if (source.count_of(&io::StackPicture::shadow) > 0) frames.emplace_back("shadows");
   return frames;
 }
 

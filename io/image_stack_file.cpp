@@ -18,6 +18,7 @@
 #include <vector>
 
 #include "io/error.h"
+#include "io/picture_maps.h"
 #include "io/pixel_converter.h"
 #include "io/row_source.h"
 #include "io/spill_file.h"
@@ -37,9 +38,10 @@ void allow_files(std::size_t pictures, const std::string& name) {
   if (getrlimit(RLIMIT_NOFILE, &limit) != 0 || limit.rlim_cur >= wanted) return;
   limit.rlim_cur = std::min(wanted, limit.rlim_max);
   if (setrlimit(RLIMIT_NOFILE, &limit) == 0 && limit.rlim_cur >= wanted) return;
-  throw IoError(Side::kInput, name,
-                fmt::format("{} pictures, and the system allows {} open files", pictures, limit.rlim_max),
-                "as many as there are pictures, and 64", "raise the limit (ulimit -n)");
+  throw IoError(
+      Side::kInput, name,
+      fmt::format("{} pictures and maps, and the system allows {} open files", pictures, limit.rlim_max),
+      "as many as there are of them, and 64", "raise the limit (ulimit -n)");
 }
 
 // A picture with its conversion.
@@ -68,11 +70,15 @@ class FileStack::Impl {
  public:
   Impl(StackSource source, FileStackOptions options)
       : source_(std::move(source)), options_(std::move(options)) {
-    allow_files(source_.pictures.size(), source_.file.string());
+    allow_files(source_.pictures.size() + source_.count_of(&StackPicture::weight) +
+                    source_.count_of(&StackPicture::shadow),
+                source_.file.string());
     open_pictures();
     describe();
     frames_.emplace(source_, options_.transfer ? options_.transfer : source_.transfer, info_.width,
                     info_.height);
+    weights_.emplace(source_.maps_of(&StackPicture::weight),
+                     FrameSize{info_.width, info_.height, source_.pictures.front().file.filename().string()});
     info_.has_normals = frames_->has_normals();
     info_.has_albedo = frames_->has_albedo();
     choose_transfers();
@@ -88,9 +94,11 @@ class FileStack::Impl {
     TexelBlock block = empty_block(static_cast<std::size_t>(rows) * width, output);
     std::iota(block.texels.begin(), block.texels.end(),
               static_cast<std::uint32_t>(static_cast<std::size_t>(first) * width));
-    FrameValues frames = frames_->read({first, rows, {}});
+    const PixelChoice choice = {first, rows, {}};
+    FrameValues frames = frames_->read(choice);
     const std::vector<Unusable> unusable = read_pictures(block, frames, output, first, rows);
     finish(block, frames, unusable);
+    weights_->weigh(block, choice);
     if (rows > 0) count(first, rows, frames, unusable);
     return block;
   }
@@ -115,6 +123,7 @@ class FileStack::Impl {
                                  block.plane(light, 0).data(), texels.size(), 0, unusable[light]);
     });
     finish(block, frames, unusable);
+    weights_->weigh(block, choice);
     return block;
   }
 
@@ -194,13 +203,17 @@ class FileStack::Impl {
 
   void prepare_spill() {
     for (Picture& picture : pictures_) {
-      if (!options_.spill && !picture.rows.needs_whole_image()) continue;
-      if (!spill_) {
-        spill_ = std::make_unique<SpillFile>(
-            options_.spill_folder.empty() ? std::filesystem::temp_directory_path() : options_.spill_folder);
-      }
-      picture.rows.use_spill(*spill_);
+      if (options_.spill || picture.rows.needs_whole_image()) picture.rows.use_spill(spill());
     }
+    weights_->use_spill(options_.spill, [this]() -> SpillFile& { return spill(); });
+  }
+
+  SpillFile& spill() {
+    if (!spill_) {
+      spill_ = std::make_unique<SpillFile>(
+          options_.spill_folder.empty() ? std::filesystem::temp_directory_path() : options_.spill_folder);
+    }
+    return *spill_;
   }
 
   TexelBlock empty_block(std::size_t texels, PixelConverter::Output output) {
@@ -302,6 +315,7 @@ class FileStack::Impl {
   std::unique_ptr<SpillFile> spill_;
   std::vector<Picture> pictures_;
   std::optional<StackFrames> frames_;
+  std::optional<PictureMaps> weights_;
 };
 
 FileStack::FileStack(StackSource source, FileStackOptions options)

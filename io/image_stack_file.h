@@ -42,7 +42,8 @@ struct PixelCounts {
   std::size_t bad_texels = 0;  // without a normal, or black in the flat frame
 };
 
-// Values of a texel have weight 0 where they are saturated or not finite, or where the texel is masked.
+// Values of a texel have weight 0 where they are saturated or not finite, or where the texel is masked;
+// elsewhere that of their picture's weight map, or 1.
 // Pictures are decoded in parallel, each from top to bottom, with all files open; read from top to bottom,
 // every picture is decoded once in a pass. Values are linear Rec.709 divided by exposure: dark frame off,
 // flat frame (scaled to mean 1 in each channel) divided out, then the colour matrix.

@@ -60,11 +60,12 @@ class Manifest {
     source.name = (stem.extension() == ".olat" ? stem.stem() : stem).string();
     root_.integer("version", 1, 1);
     read_images(source);
-    source.dark = optional_file("dark", "the dark frame");
-    source.flat = optional_file("flat", "the flat frame");
-    source.mask = optional_file("mask", "the mask");
-    source.normals = optional_file("normals", "the normal map");
-    source.albedo = optional_file("albedo", "the albedo map");
+    source.dark = optional_file(root_, "dark", "the dark frame");
+    source.flat = optional_file(root_, "flat", "the flat frame");
+    source.mask = optional_file(root_, "mask", "the mask");
+    source.normals = optional_file(root_, "normals", "the normal map");
+    source.albedo = optional_file(root_, "albedo", "the albedo map");
+    read_noise(source);
     read_encoding(source);
     if (root_.has("view")) source.view = unit_vector(root_, "view");
     read_plane(source);
@@ -105,14 +106,28 @@ class Manifest {
     if (image.has("exposure_seconds")) {
       picture.exposure_seconds = image.number("exposure_seconds", 1e-9, 1e6);
     }
+    picture.weight = optional_file(image, "weight", "the weight map");
+    picture.shadow = optional_file(image, "shadow", "the shadow map");
     return picture;
   }
 
-  std::optional<fs::path> optional_file(std::string_view key, const std::string& what) {
-    if (!root_.has(key)) return {};
-    const fs::path wanted = file_.parent_path() / root_.string(key);
-    require_file(wanted, root_.file(), fmt::format("'{}'", key), what);
+  // The file that a member names; nothing where it is absent.
+  std::optional<fs::path> optional_file(ObjectReader& reader, std::string_view key,
+                                        const std::string& what) const {
+    if (!reader.has(key)) return {};
+    const fs::path wanted = file_.parent_path() / reader.string(key);
+    require_file(wanted, root_.file(), fmt::format("'{}'", reader.place(key)), what);
     return wanted;
+  }
+
+  void read_noise(StackSource& source) {
+    if (!root_.has("noise")) return;
+    ObjectReader noise = root_.object("noise");
+    StatedNoise stated;
+    stated.read_deviation = noise.number("read_deviation", 0.0, kLargest, 0.0);
+    stated.shot = noise.number("shot", 0.0, kLargest, 0.0);
+    noise.finish();
+    source.noise = stated;
   }
 
   void read_encoding(StackSource& source) {

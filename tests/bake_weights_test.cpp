@@ -1,4 +1,4 @@
-// Weights of values: noise, saturation, maps.
+// Weights of values: noise and saturation.
 #include "bake/weights.h"
 
 #include <gtest/gtest.h>
@@ -55,9 +55,25 @@ TEST(NoiseWeights, MultiplyIntoABlockByTheBrightestChannel) {
   block.weight[2] = 0.0F;
   const SensorNoise noise{.read_deviation = 0.1, .shot = 0.1};
   weigh_by_noise(block, noise, std::vector<double>{1.0, 2.0});
-  EXPECT_FLOAT_EQ(block.weight[0], static_cast<float>(0.5 * noise_weight(noise, 0.8F)));
+  EXPECT_FLOAT_EQ(block.weight[0], static_cast<float>(0.5 * 0.25 * noise_weight(noise, 0.8F)));
   EXPECT_EQ(block.weight[2], 0.0F);
   EXPECT_FLOAT_EQ(block.weight[4], static_cast<float>(0.5 * noise_weight(noise, 2.0 * 2.0F)));
+}
+
+TEST(NoiseWeights, AreThoseOfTheRadianceHoweverLongItWasExposed) {
+  // One radiance seen by several exposures: weights are as the inverse of the radiance's variance.
+  const std::vector<double> exposure = {0.01, 0.1, 1.0};
+  const SensorNoise noise{.read_deviation = 0.02, .shot = 0.001};
+  TexelBlock block;
+  block.texels = {0};
+  block.lights = 3;
+  block.rgb.assign(9, 0.4F);
+  weigh_by_noise(block, noise, exposure);
+  const auto variance = [&](double e) { return (0.0004 + 0.001 * e * 0.4) / (e * e); };
+  for (std::size_t light = 0; light < 2; ++light) {
+    EXPECT_NEAR(block.weight[light] / block.weight[2], variance(1.0) / variance(exposure[light]), 1e-6);
+  }
+  EXPECT_LE(block.weight[2], 1.0F);
 }
 
 TEST(NoiseWeights, RefuseWhatMakesNoSense) {
@@ -65,29 +81,9 @@ TEST(NoiseWeights, RefuseWhatMakesNoSense) {
   EXPECT_THROW(weigh_by_noise(block, {.read_deviation = -1.0}), std::invalid_argument);
   EXPECT_THROW(weigh_by_noise(block, {.knee = 0.0}), std::invalid_argument);
   EXPECT_THROW(weigh_by_noise(block, {}, std::vector<double>{1.0}), std::invalid_argument);
-}
-
-TEST(WeightMaps, MultiplyByTexelIndex) {
-  TexelBlock block = ramp();
-  const std::vector<float> map = {0.0F, 0.0F, 0.0F, 0.0F, 0.1F, 0.2F, 0.3F, 0.4F};
-  weigh_by_map(block, 1, map);
-  weigh_by_map(block, 1, map);
-  for (std::size_t t = 0; t < 4; ++t) {
-    EXPECT_EQ(block.weight_of(0, t), 1.0F);
-    EXPECT_FLOAT_EQ(block.weight_of(1, t), map[4 + t] * map[4 + t]);
-  }
-}
-
-TEST(WeightMaps, RefuseWhatIsNoWeight) {
-  TexelBlock block = ramp();
-  std::vector<float> map(8, 1.0F);
-  map[5] = 1.5F;
-  EXPECT_THROW(weigh_by_map(block, 0, map), std::invalid_argument);
-  map[5] = std::numeric_limits<float>::quiet_NaN();
-  EXPECT_THROW(weigh_by_map(block, 0, map), std::invalid_argument);
-  EXPECT_THROW(weigh_by_map(block, 0, std::vector<float>(7, 1.0F)), std::invalid_argument);
-  EXPECT_THROW(weigh_by_map(block, 2, std::vector<float>(8, 1.0F)), std::invalid_argument);
-  EXPECT_TRUE(block.weight.empty());
+  EXPECT_THROW(weigh_by_noise(block, {}, std::vector<double>{1.0, 0.0}), std::invalid_argument);
+  block.channels = 1;
+  EXPECT_THROW(weigh_by_noise(block, {}), std::invalid_argument);
 }
 
 }  // namespace

@@ -3,6 +3,7 @@
 
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <random>
 #include <stdexcept>
@@ -129,6 +130,61 @@ TEST(Contours, RefuseWhatDoesNotFit) {
   EXPECT_THROW(find_contours(picture.view(), kWidth, kHeight, {.threshold = 0.0}), std::invalid_argument);
   EXPECT_THROW(variation(picture.luminance, 0, 0), std::invalid_argument);
   EXPECT_THROW(contour_weights({}, {}, kWidth, kHeight), std::invalid_argument);
+}
+
+// What a pass over parts of rows finds, each with its halo.
+std::vector<float> weights_by_parts(const Picture& reference, const Picture& render, int rows,
+                                    const ContourOptions& options) {
+  const auto part_of = [](const Picture& whole, int first, int last) {
+    const auto cut = [&](const std::vector<float>& v) {
+      return std::vector<float>(v.begin() + first * kWidth, v.begin() + last * kWidth);
+    };
+    return Picture{cut(whole.luminance), cut(whole.unshadowed), cut(whole.facing)};
+  };
+  const auto for_parts = [&](int halo, const auto& use) {
+    for (int row = 0; row < kHeight; row += rows) {
+      const int end = std::min(row + rows, kHeight);
+      const int first = std::max(row - halo, 0);
+      const int last = std::min(end + halo, kHeight);
+      use(part_of(reference, first, last), part_of(render, first, last), last - first,
+          Rows{row - first, end - first});
+    }
+  };
+  VariationSums seen, shown;
+  for_parts(1, [&](const Picture& a, const Picture& b, int height, const Rows& inner) {
+    add_variation(seen, a.view(), kWidth, height, inner);
+    add_variation(shown, b.view(), kWidth, height, inner);
+  });
+  std::vector<float> weights;
+  for_parts(contour_halo(options), [&](const Picture& a, const Picture& b, int height, const Rows& inner) {
+    const std::vector<float> part =
+        contour_weights(find_contours(a.view(), kWidth, height, seen, options),
+                        find_contours(b.view(), kWidth, height, shown, options), kWidth, height, options);
+    weights.insert(weights.end(), part.begin() + inner.first * kWidth, part.begin() + inner.last * kWidth);
+  });
+  return weights;
+}
+
+TEST(ContourWeights, ArePictureWideHoweverRowsAreCut) {
+  // A shadow whose edge falls off across the rows, and a render's a few pixels away from it.
+  Picture reference = shadow_from(0);
+  Picture render = shadow_from(0);
+  for (int y = 0; y < kHeight; ++y) {
+    for (int x = 0; x < kWidth; ++x) {
+      const auto at = static_cast<std::size_t>(y * kWidth + x);
+      if (x + y < 24) reference.luminance[at] *= 16.0F;
+      if (x < 16 && y < 9) render.luminance[at] *= 16.0F;
+    }
+  }
+  ContourOptions options;
+  options.reach = 5.0;
+  const std::vector<float> expected =
+      contour_weights(contours_of(reference), contours_of(render), kWidth, kHeight, options);
+  EXPECT_GT(std::count_if(expected.begin(), expected.end(), [](float w) { return w < 1.0F; }), 20);
+  EXPECT_LT(*std::min_element(expected.begin(), expected.end()), 0.5F);
+  for (const int rows : {1, 3, 7, 16}) {
+    EXPECT_EQ(weights_by_parts(reference, render, rows, options), expected) << rows;
+  }
 }
 
 }  // namespace

@@ -265,6 +265,61 @@ TEST_F(ImageStackFileTest, MaskAndBlackFlatTakeTexelsOutOfAllPictures) {
   EXPECT_EQ(flat.counts().bad_texels, 1U);
 }
 
+TEST_F(ImageStackFileTest, WeightMapsMultiplyHoweverTheStackIsRead) {
+  for (const auto& [name, type] :
+       {std::pair("w.png", SampleType::kUint8), std::pair("w16.png", SampleType::kUint16),
+        std::pair("w.exr", SampleType::kHalf)}) {
+    StackSource source = waves_stack(".png", SampleType::kUint8);
+    const auto level = [](int x, int y) { return static_cast<float>((x + 7 * y) % 6) / 5.0F; };
+    write_picture(folder_ / name, 37, 41, 1, type, [&](int x, int y, int) { return level(x, y); });
+    source.pictures[3].weight = folder_ / name;
+    for (const bool is_spilled : {false, true}) {
+      FileStackOptions options;
+      options.spill = is_spilled;
+      FileStack stack(source, options);
+      const TexelBlock luminance = stack.read_luminance(7, 9);
+      const TexelBlock some = stack.read_texels(std::vector<std::uint32_t>{0, 5, 38, 1500});
+      const TexelBlock all = whole(stack);
+      for (std::size_t k = 0; k < all.count(); ++k) {
+        EXPECT_EQ(all.weight_of(2, k), 1.0F);
+        EXPECT_NEAR(all.weight_of(3, k), level(static_cast<int>(k % 37), static_cast<int>(k / 37)), 2e-4F);
+      }
+      for (std::size_t k = 0; k < some.count(); ++k) {
+        EXPECT_EQ(some.weight_of(3, k), all.weight_of(3, some.texels[k])) << name;
+      }
+      for (std::size_t k = 0; k < luminance.count(); ++k) {
+        EXPECT_EQ(luminance.weight_of(3, k), all.weight_of(3, luminance.texels[k])) << name;
+      }
+    }
+  }
+}
+
+TEST_F(ImageStackFileTest, AWeightMapKeepsWhatCannotBeUsedAtZero) {
+  Json manifest = two_lights();
+  manifest["images"][1]["weight"] = "w.exr";
+  write_picture(folder_ / "w.exr", 2, 1, 1, SampleType::kFloat, [](int, int, int) { return 0.25F; });
+  FileStack stack(pairs({0.5F, kNan}, {kInfinity, 3.0F}, manifest));
+  EXPECT_THAT(whole(stack).weight, testing::ElementsAre(0.25F, 0.0F, 0.0F, 1.0F));
+}
+
+TEST_F(ImageStackFileTest, WhatIsNoWeightIsNamed) {
+  Json manifest = two_lights();
+  manifest["images"][1]["weight"] = "w.exr";
+  const auto error_of = [&](int width, float value) {
+    write_picture(folder_ / "w.exr", width, 1, 1, SampleType::kFloat,
+                  [value](int x, int, int) { return x == 1 ? value : 0.5F; });
+    return input_error_of([&] {
+      FileStack stack(pairs({0.5F, 0.5F}, {0.5F, 0.5F}, manifest));
+      whole(stack);
+    });
+  };
+  EXPECT_EQ(error_of(2, 1.0F), "no error");
+  EXPECT_THAT(error_of(2, 1.5F), HasSubstr("w.exr: pixel (1, 0) holds 1.5 (expected values from 0 to 1)"));
+  EXPECT_THAT(error_of(2, -0.1F), HasSubstr("holds -0.1"));
+  EXPECT_THAT(error_of(2, kNan), HasSubstr("is not finite"));
+  EXPECT_THAT(error_of(3, 0.5F), HasSubstr("is 3 x 1 pixels (expected 2 x 1 as a.exr)"));
+}
+
 TEST_F(ImageStackFileTest, NormalsAreUnitHoweverTheyAreStored) {
   const std::vector<std::array<float, 3>> normals = {{0.6F, 0.0F, 0.8F}, {0.0F, 0.0F, 0.0F}};
   for (const auto& [name, type] :

@@ -60,6 +60,7 @@ class JsonSchema {
     }
     if (keyword == "properties" || keyword == "items") return check_inside(keyword, rule, value, place);
     if (keyword == "additionalProperties") return check_others(schema, rule, value, place);
+    if (keyword == "prefixItems") return check_first_items(rule, value, place);
     if (keyword == "propertyNames") return check_names(rule, value, place);
     return holds(keyword, rule, value) ? "" : place + ": " + keyword;
   }
@@ -85,6 +86,16 @@ class JsonSchema {
     for (const auto& [key, member] : value.items()) {
       if (!is_list && !rule.contains(key)) continue;
       std::string found = check(is_list ? rule : rule[key], member, place + "/" + key);
+      if (!found.empty()) return found;
+    }
+    return "";
+  }
+
+  // Each item by the rule in its place.
+  std::string check_first_items(const Json& rules, const Json& value, const std::string& place) const {
+    if (!value.is_array()) return "";
+    for (std::size_t k = 0; k < std::min(rules.size(), value.size()); ++k) {
+      std::string found = check(rules[k], value[k], place + "/" + std::to_string(k));
       if (!found.empty()) return found;
     }
     return "";

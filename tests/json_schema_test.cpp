@@ -34,6 +34,8 @@ TEST(JsonSchema, EveryKeywordAllowsAndRefusesWhatTheStandardSays) {
       {R"({"minProperties": 1})", R"([{"a": 1}, 1])", R"([{}])"},
       {R"({"minItems": 1, "maxItems": 2})", R"([[1], [1, 1], 1])", R"([[], [1, 1, 1]])"},
       {R"({"uniqueItems": true})", R"([[1, 2], 1])", R"([[1, 2, 1]])"},
+      {R"({"prefixItems": [{"const": 1}, {"const": 2}]})", R"([[], [1], [1, 2], [1, 2, 3], 2])",
+       R"([[2], [1, 3]])"},
       {R"({"items": {"const": 1}})", R"([[], [1, 1], 2])", R"([[1, 2]])"},
       {R"({"contains": {"const": 1}})", R"([[2, 1], 2, {"a": 2}])", R"([[], [2]])"},
       {R"({"anyOf": [{"const": 1}, {"const": 2}]})", R"([1, 2])", R"([3])"},

@@ -47,9 +47,11 @@ class StackSourceTest : public testing::Test {
 Json full_manifest() {
   Json manifest = Json::parse(R"({"version": 1,
     "images": [
-      {"file": "a.png", "position": [0, 0, 400], "intensity": [1, 0.9, 0.8], "exposure_seconds": 0.01},
+      {"file": "a.png", "position": [0, 0, 400], "intensity": [1, 0.9, 0.8], "exposure_seconds": 0.01,
+       "weight": "extra.png", "shadow": "extra.png"},
       {"file": "b.png", "direction": [0.6, 0, 0.8], "exposure_seconds": 0.02}],
     "dark": "extra.png", "flat": "extra.png", "mask": "extra.png", "normals": "extra.png", "albedo": "extra.png",
+    "noise": {"read_deviation": 0.01, "shot": 0.001},
     "transfer": "gamma 2.2", "color_matrix": [[1.5, -0.4, -0.1], [-0.2, 1.4, -0.2], [0, -0.5, 1.5]],
     "view": [0, 0, 1], "pixel_size": 0.1, "origin": [-0.2, 0.1, 0], "units": "mm"})");
   return manifest;
@@ -70,6 +72,10 @@ TEST_F(StackSourceTest, KeepsAllThatAManifestSays) {
   EXPECT_EQ(source.pictures[0].light.intensity, (Rgb{1.0, 0.9, 0.8}));
   EXPECT_EQ(source.pictures[1].exposure_seconds, 0.02);
   EXPECT_EQ(source.pictures[1].light.direction.x, 0.6);
+  EXPECT_EQ(source.pictures[0].weight, folder_ / "extra.png");
+  EXPECT_EQ(source.pictures[0].shadow, folder_ / "extra.png");
+  EXPECT_FALSE(source.pictures[1].weight || source.pictures[1].shadow);
+  EXPECT_EQ(source.noise, (StatedNoise{0.01, 0.001}));
   EXPECT_EQ(source.transfer, (Transfer{Transfer::Kind::kGamma, 2.2}));
   EXPECT_EQ(source.color_matrix[0][1], -0.4);
   EXPECT_EQ(source.plane.pixel_size, 0.1);
@@ -137,6 +143,12 @@ TEST_F(StackSourceTest, SchemaAndReaderAgree) {
       [](Json& m) { m["images"][0]["exposure_seconds"] = 0; },
       [](Json& m) { m["images"][0]["exposure_seconds"] = "1/60"; },
       [](Json& m) { m["images"][0]["colour"] = 1; },
+      [](Json& m) { m["images"][0]["weight"] = 0.5; },
+      [](Json& m) { m["images"][0]["shadow"] = false; },
+      [](Json& m) { m["noise"] = 0.1; },
+      [](Json& m) { m["noise"]["shot"] = -1; },
+      [](Json& m) { m["noise"]["read_deviation"] = "0.1"; },
+      [](Json& m) { m["noise"]["dark"] = 1; },
       [](Json& m) {
         m["images"][1]["direction"] = {0, 1};
       },
@@ -167,6 +179,8 @@ TEST_F(StackSourceTest, EveryMistakeInAManifestIsNamed) {
   const std::vector<std::pair<std::function<void(Json&)>, std::string>> mistakes = {
       {[](Json& m) { m["images"][1]["file"] = "none.png"; }, "none.png is not there"},
       {[](Json& m) { m["mask"] = "none.png"; }, "'mask': the mask"},
+      {[](Json& m) { m["images"][0]["weight"] = "none.png"; }, "'images[0].weight': the weight map"},
+      {[](Json& m) { m["images"][1]["shadow"] = "none.png"; }, "'images[1].shadow': the shadow map"},
       {[](Json& m) { m["images"][1]["file"] = "./a.png"; }, "a.png is listed twice"},
       {[](Json& m) {
          m["images"][1]["direction"] = {0.6, 0, -0.8};

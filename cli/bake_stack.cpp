@@ -1,0 +1,109 @@
+// Opening a stack, and the weights that its manifest and the command line ask for.
+#include "cli/bake_stack.h"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <vector>
+
+#include "cli/progress.h"
+
+namespace brdfit::cli {
+namespace {
+
+// What a strip needs beside its pixels: render, problem, solution.
+constexpr std::size_t kMemoryPerPixelMemory = 5;
+
+std::size_t memory_bytes(const BakeArguments& a) {
+  return static_cast<std::size_t>(a.memory_mib) << 20;
+}
+
+io::FileStack open_files(const BakeArguments& a) {
+  io::FileStackOptions options;
+  if (!a.transfer.empty()) {
+    options.transfer = io::transfer_from(a.transfer);
+    if (!options.transfer)
+      throw UsageError(fmt::format("--transfer {} is not {}", a.transfer, io::kTransferNames));
+  }
+  options.memory_bytes = memory_bytes(a) / kMemoryPerPixelMemory;
+  options.spill = a.spill;
+  return io::FileStack(io::read_stack_source(a.stack), options);
+}
+
+std::optional<bake::SensorNoise> noise_of(const BakeArguments& a, const io::StackSource& source) {
+  bake::SensorNoise noise;
+  if (!a.noise.empty()) {
+    noise.read_deviation = a.noise[0];
+    noise.shot = a.noise[1];
+    std::string why;
+    if (!noise.is_valid(&why)) throw UsageError("--noise: " + why);
+  } else if (source.noise) {
+    noise.read_deviation = source.noise->read_deviation;
+    noise.shot = source.noise->shot;
+  } else {
+    return {};
+  }
+  return noise;
+}
+
+}  // namespace
+
+BakeStack::BakeStack(const BakeArguments& a) : files_(open_files(a)), weighted_(files_) {
+  weigh_by_noise(a);
+  if (a.contours) weigh_by_contours(a);
+}
+
+void BakeStack::weigh_by_noise(const BakeArguments& a) {
+  noise_ = noise_of(a, files_.source());
+  if (!noise_) return;
+  std::vector<double> exposure;
+  for (const io::StackPicture& picture : files_.source().pictures) {
+    exposure.push_back(picture.exposure_seconds.value_or(1.0));
+  }
+  weighted_.add(
+      {[noise = *noise_, exposure](TexelBlock& block) { bake::weigh_by_noise(block, noise, exposure); },
+       true});
+}
+
+void BakeStack::weigh_by_contours(const BakeArguments& a) {
+  const io::StackSource& source = files_.source();
+  io::PictureMaps shadows(
+      source.maps_of(&io::StackPicture::shadow),
+      io::FrameSize{info().width, info().height, source.pictures.front().file.filename().string()});
+  ContourPassOptions options;
+  options.strip_rows = std::max(1, strip_rows());
+  options.memory_bytes = memory_bytes(a) / 2;
+  options.step = [] {
+    if (interrupted()) throw std::runtime_error("interrupted; nothing is written");
+  };
+  say(a.common, "looking for shadow contours");
+  contours_ = std::make_unique<ContourPass>(weighted_, std::move(shadows), options);
+  weighted_.add({[this](TexelBlock& block) { contours_->weigh(block); }, false});
+}
+
+io::Json BakeStack::weights_json() const {
+  io::Json json;
+  if (const std::size_t maps = files_.source().count_of(&io::StackPicture::weight); maps > 0)
+    json["maps"] = maps;
+  if (noise_) json["noise"] = {{"read_deviation", noise_->read_deviation}, {"shot", noise_->shot}};
+  if (contours_) {
+    json["contours"] = {{"shadow_maps", files_.source().count_of(&io::StackPicture::shadow)},
+                        {"lowered_values", contours_->lowered()}};
+  }
+  return json;
+}
+
+std::string BakeStack::weights_text() const {
+  std::string text;
+  if (const std::size_t maps = files_.source().count_of(&io::StackPicture::weight); maps > 0) {
+    text += fmt::format("weights: maps of {} of {} pictures\n", maps, info().lights.size());
+  }
+  if (noise_) text += fmt::format("weights: noise {:g}, {:g}\n", noise_->read_deviation, noise_->shot);
+  if (contours_) {
+    text += fmt::format("weights: {} values lie between shadow contours; {} pictures have a shadow map\n",
+                        contours_->lowered(), files_.source().count_of(&io::StackPicture::shadow));
+  }
+  return text;
+}
+
+}  // namespace brdfit::cli

@@ -1,0 +1,54 @@
+// The stack that `brdfit bake` reads: photographs with every weight that was asked for.
+#ifndef BRDFIT_CLI_BAKE_STACK_H_
+#define BRDFIT_CLI_BAKE_STACK_H_
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "bake/weighted_stack.h"
+#include "bake/weights.h"
+#include "cli/bake_options.h"
+#include "cli/contour_pass.h"
+#include "io/image_stack_file.h"
+#include "io/json.h"
+
+namespace brdfit::cli {
+
+class BakeStack : public ImageStack {
+ public:
+  // Opens the files, and with --contours reads them once. Throws UsageError, io::IoError, and
+  // std::runtime_error when interrupted.
+  explicit BakeStack(const BakeArguments& a);
+
+  const StackInfo& info() const override { return files_.info(); }
+  TexelBlock read_rows(int first_row, int rows) override { return weighted_.read_rows(first_row, rows); }
+  TexelBlock read_luminance(int first_row, int rows) override {
+    return weighted_.read_luminance(first_row, rows);
+  }
+  TexelBlock read_texels(std::span<const std::uint32_t> texels) override {
+    return weighted_.read_texels(texels);
+  }
+  void give_back(TexelBlock block) override { weighted_.give_back(std::move(block)); }
+
+  int strip_rows() const { return files_.strip_rows(); }
+  const io::PixelCounts& counts() const { return files_.counts(); }
+
+  // What weights there are, for the asset's description; null where there are none.
+  io::Json weights_json() const;
+  // The same as lines of text; empty where there are none.
+  std::string weights_text() const;
+
+ private:
+  void weigh_by_noise(const BakeArguments& a);
+  void weigh_by_contours(const BakeArguments& a);
+
+  io::FileStack files_;
+  bake::WeightedStack weighted_;
+  std::optional<bake::SensorNoise> noise_;
+  std::unique_ptr<ContourPass> contours_;
+};
+
+}  // namespace brdfit::cli
+
+#endif  // BRDFIT_CLI_BAKE_STACK_H_
