@@ -230,25 +230,16 @@ class Predictor {
 
   void compare_realis(const Targets& targets) {
     const Base base = base_of(targets, baked_.surface, plan_.base);
-    compare_lobes("realis", base, targets, plan_, options_.compressed);
-    for (const int lobes : options_.other_lobes) {
-      if (lobes == settings_.lobes) continue;
-      auto found = others_.find(lobes);
-      if (found == others_.end()) {
-        BakePlan other = plan_;
-        BakeSettings settings = settings_;
-        settings.lobes = lobes;
-        settings.given_lobes.reset();
-        plan_lobes(other, train_info(), train_block(), settings);
-        found = others_.emplace(lobes, std::move(other)).first;
-      }
-      compare_lobes(fmt::format("realis-k{}", lobes), base, targets, found->second, false);
+    compare_lobes("realis", base, targets, plan_.system, settings_.lobes, options_.compressed);
+    for (const auto& [lobes, system] : plan_.also) {
+      compare_lobes(fmt::format("realis-k{}", lobes), base, targets, system, lobes, false);
     }
   }
 
-  void compare_lobes(const std::string& name, const Base& base, const Targets& targets, const BakePlan& plan,
-                     bool compressed) {
-    const auto lobes = static_cast<std::size_t>(plan.system ? plan.system->lobes().size() : settings_.lobes);
+  // asked: the number of lobes where there is no system, as no lobes help.
+  void compare_lobes(const std::string& name, const Base& base, const Targets& targets,
+                     const std::optional<LobeSystem>& system, int asked, bool compressed) {
+    const std::size_t lobes = system ? system->lobes().size() : static_cast<std::size_t>(asked);
     const auto all = static_cast<int>(lobes);
     const int half = std::max(1, all / 2);
     std::vector<std::pair<std::string, CompressOptions>> kinds{{name, {0, all, false}}};
@@ -258,19 +249,19 @@ class Predictor {
       kinds.push_back({fmt::format("{}-m{}", name, half), {0, half, false}});
       kinds.push_back({fmt::format("{}-m{}-8bit", name, half), {8, half, options_.dither}});
     }
-    if (!plan.system) {
+    if (!system) {
       for (const auto& [kind, options] : kinds) {
         add(realis_method(kind, lobes, options.dominant, options.bits), targets, base, base.problem.residual);
       }
       return;
     }
-    const SolveResult solved = solve(*plan.system, baked_.problems[0]);
+    const SolveResult solved = solve(*system, baked_.problems[0]);
     for (const auto& [kind, options] : kinds) {
       const bool whole = options.bits == 0 && options.dominant == all;
       const std::vector<float> amplitudes =
-          whole ? solved.amplitudes : compressed_amplitudes(*plan.system, solved.amplitudes, options);
+          whole ? solved.amplitudes : compressed_amplitudes(*system, solved.amplitudes, options);
       add(realis_method(kind, lobes, options.dominant, options.bits), targets, base,
-          corrected(base, targets, *plan.system, amplitudes));
+          corrected(base, targets, *system, amplitudes));
     }
   }
 
@@ -298,7 +289,6 @@ class Predictor {
   const EvidenceOptions& options_;
   Tallies& tallies_;
   BakedBlock baked_;
-  std::map<int, BakePlan> others_;
   std::optional<StackInfo> train_info_;
   std::optional<TexelBlock> train_block_;
 };
@@ -328,8 +318,20 @@ const MethodEvidence* Evidence::find(const std::string& name) const {
   return found == methods.end() ? nullptr : &*found;
 }
 
-Evidence evaluate(const StackInfo& info, const TexelBlock& sample, const BakePlan& plan,
-                  const BakeSettings& settings, const EvidenceOptions& options) {
+BakeSettings with_compared_lobes(BakeSettings settings, const EvidenceOptions& options) {
+  settings.also_lobes = options.other_lobes;
+  std::erase(settings.also_lobes, settings.lobes);
+  return settings;
+}
+
+Evidence evaluate(const StackInfo& info, const TexelBlock& sample, const BakePlan& whole_plan,
+                  const BakeSettings& whole_settings, const EvidenceOptions& options) {
+  const BakeSettings settings = with_compared_lobes(whole_settings, options);
+  BakePlan plan = whole_plan;
+  if (plan.also.size() != settings.also_lobes.size()) {
+    plan_lobes(plan, with_lights(with_gains(info, plan.gains), plan.lights), with_lights(sample, plan.lights),
+               settings);
+  }
   const std::size_t lights = info.lights.size();
   Evidence evidence;
   evidence.folds = fold_count(lights, options.folds);

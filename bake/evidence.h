@@ -49,6 +49,9 @@ struct Evidence {
   const MethodEvidence* find(const std::string& name) const;
 };
 
+// Settings with which a plan holds all lobes that the evidence compares.
+BakeSettings with_compared_lobes(BakeSettings settings, const EvidenceOptions& options);
+
 // For every fold everything is planned and baked without its lights: normals, albedo, gains, material, lobes,
 // ridge and which texels are corrected; a held-out light has its manifest intensity. sample: texels with all
 // lights. plan: that of all lights, for the training errors.
