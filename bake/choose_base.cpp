@@ -15,9 +15,13 @@ namespace {
 // In folds, few values and steps from where the fit to all lights began are enough to compare models.
 constexpr std::size_t kFoldValues = 12000;
 constexpr int kFoldIterations = 8;
+// With fewer lights than this a fit is held by its lights alone: what it led to with all of them is no fair
+// start without one, and few values are not enough to tell starts apart.
+constexpr std::size_t kFewLights = 30;
 
-SharedMaterialOptions options_of(Model model, const ChooseBaseOptions& options) {
+SharedMaterialOptions options_of(Model model, std::size_t lights, const ChooseBaseOptions& options) {
   SharedMaterialOptions material = options.material;
+  if (lights < kFewLights) material.explored_values = std::max(material.explored_values, material.values);
   material.model = model;
   material.effects = effects_of(model);
   return material;
@@ -34,9 +38,9 @@ SharedMaterial fit_candidate(const StackInfo& info, const TexelBlock& block, con
     lambert.termination = "nothing to fit";
     return lambert;
   }
-  SharedMaterialOptions material = options_of(*model, options);
-  material.start = start;
-  if (in_fold) {
+  SharedMaterialOptions material = options_of(*model, lights.size(), options);
+  if (!in_fold || lights.size() >= kFewLights) material.start = start;
+  if (in_fold && lights.size() >= kFewLights) {
     material.values = std::min(material.values, kFoldValues);
     material.max_iterations = std::min(material.max_iterations, kFoldIterations);
   }
@@ -93,7 +97,8 @@ std::vector<std::optional<Material>> starts_of(const StackInfo& info, const Texe
     const std::optional<Model>& model = candidates[k].model;
     if (!model) return;
     starts[k] =
-        explore_shared_material(info, block, surface, lights, options_of(*model, options)).model.material;
+        explore_shared_material(info, block, surface, lights, options_of(*model, lights.size(), options))
+            .model.material;
   });
   return starts;
 }
