@@ -7,7 +7,9 @@
 #include <algorithm>
 #include <array>
 #include <stdexcept>
+#include <utility>
 
+#include "bake/luminance.h"
 #include "brdf/simd/dispatch.h"
 
 namespace brdfit::simd {
@@ -124,11 +126,11 @@ void render_block(const StackInfo& info, const TexelBlock& block, const Surface&
   });
 }
 
-Surface with_base_colour(const StackInfo& info, const TexelBlock& block, const Surface& surface,
-                         const LightChoice& lights, const BaseModel& model) {
-  check(info, block, surface, lights, model);
-  Surface result = surface;
-  if (!model.material || !block.albedo.empty()) return result;
+namespace {
+
+// Base colours into surface.albedo; residuals too where there is room for them.
+void solve_base_colours(const StackInfo& info, const TexelBlock& block, const LightChoice& lights,
+                        const BaseModel& model, Surface& surface, std::span<float> residual) {
   const std::size_t texels = block.count();
   const ChunkLights chunk_lights(info, lights);
   const Prepared prepared(model);
@@ -136,6 +138,7 @@ Surface with_base_colour(const StackInfo& info, const TexelBlock& block, const S
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, chunk_count(texels), 8), [&](const auto& range) {
     std::vector<float> at_texels;
     std::vector<float> padded;
+    std::vector<float> last;
     std::vector<float> affine(lights.size() * 6 * kChunk);
     std::array<float, 3 * kChunk> normals;
     std::array<float, 3 * kChunk> base_colour;
@@ -150,10 +153,39 @@ Surface with_base_colour(const StackInfo& info, const TexelBlock& block, const S
       job.values = chunk_values(block, lights, first, padded);
       job.robust_width = static_cast<float>(model.robust_width);
       job.base_colour = base_colour.data();
+      for (std::size_t c = 0; c < 3; ++c) job.mix[c] = static_cast<float>(kLuminance[c]);
+      const bool is_whole = first + kChunk <= texels;
+      if (!residual.empty()) {
+        if (!is_whole) last.resize(lights.size() * kChunk);
+        job.residual = is_whole ? residual.data() + first : last.data();
+        job.residual_stride = is_whole ? texels : kChunk;
+      }
       run(job);
-      store_chunk(base_colour.data(), 3, texels, first, result.albedo);
+      store_chunk(base_colour.data(), 3, texels, first, surface.albedo);
+      if (!residual.empty() && !is_whole) store_chunk(last.data(), lights.size(), texels, first, residual);
     }
   });
+}
+
+}  // namespace
+
+Surface with_base_colour(const StackInfo& info, const TexelBlock& block, const Surface& surface,
+                         const LightChoice& lights, const BaseModel& model) {
+  check(info, block, surface, lights, model);
+  Surface result = surface;
+  if (!model.material || !block.albedo.empty()) return result;
+  solve_base_colours(info, block, lights, model, result, {});
+  return result;
+}
+
+ColouredSurface base_colour_and_residual(const StackInfo& info, const TexelBlock& block, Surface surface,
+                                         const LightChoice& lights, const BaseModel& model) {
+  check(info, block, surface, lights, model);
+  if (!model.material || !block.albedo.empty()) {
+    throw std::invalid_argument("base model: there is no base colour to solve");
+  }
+  ColouredSurface result{std::move(surface), std::vector<float>(lights.size() * block.count())};
+  solve_base_colours(info, block, lights, model, result.surface, result.residual);
   return result;
 }
 

@@ -1,6 +1,8 @@
 // Lambert and materials compared under lights held out.
 #include "bake/choose_base.h"
 
+#include <tbb/parallel_for.h>
+
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
@@ -10,18 +12,38 @@
 namespace brdfit::bake {
 namespace {
 
+// In folds, few values and steps from where the fit to all lights began are enough to compare models.
+constexpr std::size_t kFoldValues = 12000;
+constexpr int kFoldIterations = 8;
+// With fewer lights than this a fit is held by its lights alone: what it led to with all of them is no fair
+// start without one, and few values are not enough to tell starts apart.
+constexpr std::size_t kFewLights = 30;
+
+SharedMaterialOptions options_of(Model model, std::size_t lights, const ChooseBaseOptions& options) {
+  SharedMaterialOptions material = options.material;
+  if (lights < kFewLights) material.explored_values = std::max(material.explored_values, material.values);
+  material.model = model;
+  material.effects = effects_of(model);
+  return material;
+}
+
 SharedMaterial fit_candidate(const StackInfo& info, const TexelBlock& block, const Surface& surface,
-                             const LightChoice& lights, std::optional<Model> model,
+                             const LightChoice& lights, const BaseCandidate& candidate,
+                             const std::optional<Material>& start, bool in_fold,
                              const ChooseBaseOptions& options) {
+  const std::optional<Model>& model = candidate.model;
   if (!model) {
     SharedMaterial lambert;
     lambert.converged = true;
     lambert.termination = "nothing to fit";
     return lambert;
   }
-  SharedMaterialOptions material = options.material;
-  material.model = *model;
-  material.effects = effects_of(*model);
+  SharedMaterialOptions material = options_of(*model, lights.size(), options);
+  if (!in_fold || lights.size() >= kFewLights) material.start = start;
+  if (in_fold && lights.size() >= kFewLights) {
+    material.values = std::min(material.values, kFoldValues);
+    material.max_iterations = std::min(material.max_iterations, kFoldIterations);
+  }
   return fit_shared_material(info, block, surface, lights, material);
 }
 
@@ -33,8 +55,9 @@ struct Errors {
 
 Errors errors_of(const StackInfo& info, const StackInfo& gained, const TexelBlock& block,
                  const Surface& surface, const LightChoice& training, const LightChoice& held_out,
-                 std::optional<Model> model, const ChooseBaseOptions& options) {
-  const SharedMaterial fit = fit_candidate(gained, block, surface, training, model, options);
+                 const BaseCandidate& candidate, const std::optional<Material>& start,
+                 const ChooseBaseOptions& options) {
+  const SharedMaterial fit = fit_candidate(gained, block, surface, training, candidate, start, true, options);
   const Surface coloured = with_base_colour(gained, block, surface, training, fit.model);
   return {luminance_rmse(block, render_block(gained, block, coloured, training, fit.model), training),
           luminance_rmse(block, render_block(info, block, coloured, held_out, fit.model), held_out)};
@@ -50,17 +73,34 @@ std::vector<double> gains_of(const StackInfo& info, const TexelBlock& block, con
 }
 
 void add_fold(const StackInfo& info, const TexelBlock& block, const LightChoice& training,
-              const LightChoice& held_out, const ChooseBaseOptions& options,
-              std::vector<BaseCandidate>& candidates) {
+              const LightChoice& held_out, const std::vector<std::optional<Material>>& starts,
+              const ChooseBaseOptions& options, std::vector<BaseCandidate>& candidates) {
   const StackInfo gained = with_gains(info, gains_of(info, block, training, options, nullptr));
   const Surface surface = photometric_stereo(gained, block, training, options.stereo);
-  for (BaseCandidate& candidate : candidates) {
+  for (std::size_t k = 0; k < candidates.size(); ++k) {
+    BaseCandidate& candidate = candidates[k];
     const Errors errors =
-        errors_of(info, gained, block, surface, training, held_out, candidate.model, options);
+        errors_of(info, gained, block, surface, training, held_out, candidate, starts[k], options);
     candidate.training_rmse += errors.training * errors.training;
     // Folds may differ in size by a light.
     candidate.held_out_rmse += errors.held_out * errors.held_out * static_cast<double>(held_out.size());
   }
+}
+
+// Where fits of each candidate start: the best of its starts under all the lights given.
+std::vector<std::optional<Material>> starts_of(const StackInfo& info, const TexelBlock& block,
+                                               const Surface& surface, const LightChoice& lights,
+                                               const ChooseBaseOptions& options,
+                                               const std::vector<BaseCandidate>& candidates) {
+  std::vector<std::optional<Material>> starts(candidates.size());
+  tbb::parallel_for(std::size_t{0}, candidates.size(), [&](std::size_t k) {
+    const std::optional<Model>& model = candidates[k].model;
+    if (!model) return;
+    starts[k] =
+        explore_shared_material(info, block, surface, lights, options_of(*model, lights.size(), options))
+            .model.material;
+  });
+  return starts;
 }
 
 std::size_t best_of(const std::vector<BaseCandidate>& candidates, double margin) {
@@ -94,6 +134,9 @@ BaseChoice choose_base_model(const StackInfo& info, const TexelBlock& block, con
   BaseChoice choice;
   choice.candidates.push_back({});
   for (const Model model : options.models) choice.candidates.push_back({.model = model});
+  const StackInfo gained = with_gains(info, gains_of(info, block, lights, options, &choice.gains));
+  const Surface surface = photometric_stereo(gained, block, lights, options.stereo);
+  const auto starts = starts_of(gained, block, surface, lights, options, choice.candidates);
   const std::size_t folds = std::min<std::size_t>(static_cast<std::size_t>(options.folds), lights.size());
   if (folds >= 2) {
     for (std::size_t fold = 0; fold < folds; ++fold) {
@@ -102,7 +145,7 @@ BaseChoice choose_base_model(const StackInfo& info, const TexelBlock& block, con
       for (std::size_t k = 0; k < lights.size(); ++k) {
         (k % folds == fold ? held_out : training).push_back(lights[k]);
       }
-      add_fold(info, block, training, held_out, options, choice.candidates);
+      add_fold(info, block, training, held_out, starts, options, choice.candidates);
     }
     for (BaseCandidate& candidate : choice.candidates) {
       candidate.training_rmse = std::sqrt(candidate.training_rmse / static_cast<double>(folds));
@@ -110,9 +153,8 @@ BaseChoice choose_base_model(const StackInfo& info, const TexelBlock& block, con
     }
     choice.chosen = best_of(choice.candidates, options.margin);
   }
-  const StackInfo gained = with_gains(info, gains_of(info, block, lights, options, &choice.gains));
-  const Surface surface = photometric_stereo(gained, block, lights, options.stereo);
-  choice.fit = fit_candidate(gained, block, surface, lights, choice.candidates[choice.chosen].model, options);
+  choice.fit = fit_candidate(gained, block, surface, lights, choice.candidates[choice.chosen],
+                             starts[choice.chosen], false, options);
   return choice;
 }
 

@@ -42,9 +42,10 @@ struct BaseChoice {
 };
 
 // Everything is redone in each fold without the lights held out: gains, normals, albedo, material, base
-// colours; a light held out has its stated intensity. block: a sample of some hundred texels. With fewer than
-// two lights there is nothing to hold out, and the choice is Lambert.
-// Throws std::invalid_argument where sizes disagree or options are invalid.
+// colours; a light held out has its stated intensity. But of 30 lights or more materials start, in folds,
+// where all of the lights given led to: for errors that are to be reported, hold lights out of `lights`.
+// block: a sample of some hundred texels. With fewer than two lights there is nothing to hold out, and the
+// choice is Lambert. Throws std::invalid_argument where sizes disagree or options are invalid.
 BaseChoice choose_base_model(const StackInfo& info, const TexelBlock& block, const LightChoice& lights,
                              const ChooseBaseOptions& options = {});
 

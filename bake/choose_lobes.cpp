@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
 #include <stdexcept>
 #include <tuple>
+#include <utility>
 
 #include "bake/ridge.h"
 #include "bake/solve.h"
@@ -17,6 +19,8 @@ namespace {
 
 // Fewer lights per lobe than this cannot carry the five parameters that a search gives each lobe.
 constexpr std::size_t kLightsPerSearchedLobe = 6;
+// Steps of a fold's search.
+constexpr int kFoldIterations = 25;
 // Lobes must help in this share of the folds: where they fail they may fail by far.
 constexpr double kHelpedFolds = 0.75;
 // Gains of a smaller share of the squared error are not worth a texture.
@@ -138,46 +142,102 @@ std::vector<std::vector<std::size_t>> light_folds(std::span<const Vec3> directio
   return result;
 }
 
+namespace {
+
+// Lobes searched on all the lights given, by their number; where there are too few lights, none.
+std::map<int, LobeSearchResult> searched(std::span<const ResidualClass> classes,
+                                         std::span<const Vec3> directions, const std::vector<int>& counts,
+                                         const ChoiceOptions& options) {
+  std::vector<int> wanted;
+  for (const int count : counts) {
+    const bool enough = directions.size() >= kLightsPerSearchedLobe * static_cast<std::size_t>(count);
+    if (options.optimise && enough) wanted.push_back(count);
+  }
+  std::vector<LobeSearchResult> found(wanted.size());
+  tbb::parallel_for(std::size_t{0}, wanted.size(), [&](std::size_t k) {
+    found[k] = search_lobes(classes, directions, wanted[k], options.search);
+  });
+  std::map<int, LobeSearchResult> by_count;
+  for (std::size_t k = 0; k < wanted.size(); ++k) by_count[wanted[k]] = std::move(found[k]);
+  return by_count;
+}
+
+// Of a fold, a search that goes on from where all lights led to: a few steps undo what is left of the lights
+// held out.
+LobeSet lobes_of(const Candidate& candidate, std::span<const ResidualClass> classes,
+                 std::span<const Vec3> directions, const std::map<int, LobeSearchResult>& starts,
+                 const ChoiceOptions& options) {
+  if (!candidate.optimised) return best_uniform(classes, directions, candidate.count).lobes;
+  LobeSearchOptions search = options.search;
+  search.start = starts.at(candidate.count).lobes;
+  search.start_ridge = starts.at(candidate.count).ridge;
+  search.iterations = std::min(search.iterations, kFoldIterations);
+  return search_lobes(classes, directions, candidate.count, search).lobes;
+}
+
+}  // namespace
+
 LobeChoice choose_lobes(const ProblemOf& problem_of, std::span<const Vec3> directions,
                         const ChoiceOptions& options) {
-  check(directions, options);
+  return std::move(choose_lobes_each(problem_of, directions, {options.counts}, options).front());
+}
+
+std::vector<LobeChoice> choose_lobes_each(const ProblemOf& problem_of, std::span<const Vec3> directions,
+                                          const std::vector<std::vector<int>>& groups,
+                                          const ChoiceOptions& options) {
+  std::vector<int> counts;
+  for (const std::vector<int>& group : groups) {
+    ChoiceOptions checked = options;
+    checked.counts = group;
+    check(directions, checked);
+    counts.insert(counts.end(), group.begin(), group.end());
+  }
+  std::sort(counts.begin(), counts.end());
+  counts.erase(std::unique(counts.begin(), counts.end()), counts.end());
+
+  const TexelProblem problem = problem_of(all_but(directions.size(), {}));
+  const std::vector<ResidualClass> classes = residual_classes(problem, directions, options.classes);
+  const std::map<int, LobeSearchResult> starts = searched(classes, directions, counts, options);
+
   const std::vector<std::vector<std::size_t>> folds = light_folds(directions, options.folds);
-  LobeChoice choice;
-  choice.errors_without.resize(folds.size());
-  for (const int count : options.counts) {
-    choice.candidates.push_back({count, false, std::vector<double>(folds.size())});
-    const bool enough = directions.size() >= kLightsPerSearchedLobe * static_cast<std::size_t>(count);
-    if (options.optimise && enough)
-      choice.candidates.push_back({count, true, std::vector<double>(folds.size())});
+  std::vector<double> without(folds.size());
+  std::vector<Candidate> candidates;
+  for (const int count : counts) {
+    candidates.push_back({count, false, std::vector<double>(folds.size())});
+    if (starts.contains(count)) candidates.push_back({count, true, std::vector<double>(folds.size())});
   }
   tbb::parallel_for(std::size_t{0}, folds.size(), [&](std::size_t f) {
     const std::vector<std::size_t> rest = all_but(directions.size(), folds[f]);
     const TexelProblem whole = problem_of(rest);
     const Part training = {with_lights(whole, rest), chosen(directions, rest)};
     const Part held_out = {with_lights(whole, folds[f]), chosen(directions, folds[f])};
-    const std::vector<ResidualClass> classes =
+    const std::vector<ResidualClass> seen =
         residual_classes(training.problem, training.directions, options.classes);
-    choice.errors_without[f] = error_under(held_out.problem, {});
-    for (Candidate& candidate : choice.candidates) {
-      const LobeSet lobes =
-          candidate.optimised
-              ? search_lobes(classes, training.directions, candidate.count, options.search).lobes
-              : best_uniform(classes, training.directions, candidate.count).lobes;
-      candidate.errors[f] = held_out_error(lobes, training, held_out);
+    without[f] = error_under(held_out.problem, {});
+    for (Candidate& candidate : candidates) {
+      candidate.errors[f] =
+          held_out_error(lobes_of(candidate, seen, training.directions, starts, options), training, held_out);
     }
   });
 
-  const TexelProblem problem = problem_of(all_but(directions.size(), {}));
-  choice.squared_modulation = mean_squared_modulation(problem);
-  const Candidate* picked = pick(choice.candidates, choice.errors_without, options.tolerance);
-  if (picked == nullptr) return choice;
-  const std::vector<ResidualClass> classes = residual_classes(problem, directions, options.classes);
-  choice.optimised = picked->optimised;
-  choice.search = picked->optimised ? search_lobes(classes, directions, picked->count, options.search)
-                                    : best_uniform(classes, directions, picked->count);
-  choice.lobes = choice.search.lobes;
-  choice.ridge = choose_ridge(choice.lobes, directions, problem).ridge;
-  return choice;
+  std::vector<LobeChoice> choices;
+  for (const std::vector<int>& group : groups) {
+    LobeChoice choice;
+    choice.errors_without = without;
+    choice.squared_modulation = mean_squared_modulation(problem);
+    for (const Candidate& candidate : candidates) {
+      if (std::ranges::find(group, candidate.count) != group.end()) choice.candidates.push_back(candidate);
+    }
+    if (const Candidate* picked = pick(choice.candidates, without, options.tolerance)) {
+      choice.optimised = picked->optimised;
+      choice.search =
+          picked->optimised ? starts.at(picked->count) : best_uniform(classes, directions, picked->count);
+      choice.lobes = choice.search.lobes;
+      choice.ridge = choose_ridge(choice.lobes, directions, problem).ridge;
+    }
+    choices.push_back(std::move(choice));
+  }
+  return choices;
 }
 
 }  // namespace brdfit::bake

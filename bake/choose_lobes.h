@@ -2,7 +2,9 @@
 //
 // Leave-one-out error in closed form redoes the amplitudes alone, and lobes that were optimised on all lights
 // flatter it. Here lights are held out in folds and everything is redone without them: the model (by the
-// caller), the search, the ridge and the choice of texels.
+// caller), the search, the ridge and the choice of texels. The search of a fold starts from the lobes that
+// all of the lights given lead to, which saves most of its time: errors that are to be reported need lights
+// held out of those given.
 #ifndef BRDFIT_BAKE_CHOOSE_LOBES_H_
 #define BRDFIT_BAKE_CHOOSE_LOBES_H_
 
@@ -60,6 +62,11 @@ std::vector<std::vector<std::size_t>> light_folds(std::span<const Vec3> directio
 // than two lights.
 LobeChoice choose_lobes(const ProblemOf& problem_of, std::span<const Vec3> directions,
                         const ChoiceOptions& options = {});
+
+// The same for several lists of counts (options.counts does not matter), which share folds and searches.
+std::vector<LobeChoice> choose_lobes_each(const ProblemOf& problem_of, std::span<const Vec3> directions,
+                                          const std::vector<std::vector<int>>& groups,
+                                          const ChoiceOptions& options = {});
 
 }  // namespace brdfit::bake
 

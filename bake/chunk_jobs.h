@@ -87,6 +87,11 @@ struct BaseColourJob {
   ValueColumns values;
   float robust_width = 0.0F;
   float* base_colour = nullptr;  // [3][kChunk]
+  // What the render of these base colours leaves of the values' luminance, [light] residual_stride apart;
+  // null: not asked for.
+  float* residual = nullptr;
+  std::size_t residual_stride = 0;
+  float mix[3] = {0.0F, 0.0F, 0.0F};  // what channels weigh in luminance
 };
 
 // Residuals of a chunk with base colours solved in closed form; see bake/shared_material.cpp.

@@ -164,8 +164,6 @@ class Predictor {
     compare_realis(targets);
   }
 
-  const std::map<int, BakePlan>& others() const { return others_; }
-
  private:
   struct Base {
     TexelProblem problem;
@@ -227,36 +225,27 @@ class Predictor {
 
   void compare_realis(const Targets& targets) {
     const Base base = base_of(targets, baked_.surface, plan_.base);
-    compare_lobes("realis", base, targets, plan_, options_.compressed);
-    for (const int lobes : options_.other_lobes) {
-      if (lobes == settings_.lobes) continue;
-      auto found = others_.find(lobes);
-      if (found == others_.end()) {
-        BakePlan other = plan_;
-        BakeSettings settings = settings_;
-        settings.lobes = lobes;
-        settings.given_lobes.reset();
-        plan_lobes(other, train_info(), train_block(), settings);
-        found = others_.emplace(lobes, std::move(other)).first;
-      }
-      compare_lobes(fmt::format("realis-k{}", lobes), base, targets, found->second, false);
+    compare_lobes("realis", base, targets, plan_.system, settings_.lobes, options_.compressed);
+    for (const auto& [lobes, system] : plan_.also) {
+      compare_lobes(fmt::format("realis-k{}", lobes), base, targets, system, lobes, false);
     }
   }
 
-  void compare_lobes(const std::string& name, const Base& base, const Targets& targets, const BakePlan& plan,
-                     bool compressed) {
-    const int lobes = plan.system ? static_cast<int>(plan.system->lobes().size()) : settings_.lobes;
+  // asked: the number of lobes where there is no system, as no lobes help.
+  void compare_lobes(const std::string& name, const Base& base, const Targets& targets,
+                     const std::optional<LobeSystem>& system, int asked, bool compressed) {
+    const int lobes = system ? static_cast<int>(system->lobes().size()) : asked;
     const std::vector<RealisKind> kinds = realis_kinds(name, lobes, compressed, options_.dither);
-    if (!plan.system) {
+    if (!system) {
       for (const RealisKind& kind : kinds) add(realis_method(kind), targets, base, base.problem.residual);
       return;
     }
-    const SolveResult solved = solve(*plan.system, baked_.problems[0]);
+    const SolveResult solved = solve(*system, baked_.problems[0]);
     for (const RealisKind& kind : kinds) {
       const std::vector<float> amplitudes =
           kind.is_whole() ? solved.amplitudes
-                          : compressed_amplitudes(*plan.system, solved.amplitudes, kind.options);
-      add(realis_method(kind), targets, base, corrected(base, targets, *plan.system, amplitudes));
+                          : compressed_amplitudes(*system, solved.amplitudes, kind.options);
+      add(realis_method(kind), targets, base, corrected(base, targets, *system, amplitudes));
     }
   }
 
@@ -284,7 +273,6 @@ class Predictor {
   const EvidenceOptions& options_;
   Tallies& tallies_;
   BakedBlock baked_;
-  std::map<int, BakePlan> others_;
   std::optional<StackInfo> train_info_;
   std::optional<TexelBlock> train_block_;
 };
@@ -334,8 +322,32 @@ const MethodEvidence* Evidence::find(const std::string& name) const {
   return found == methods.end() ? nullptr : &*found;
 }
 
-Evidence evaluate(const StackInfo& info, const TexelBlock& sample, const BakePlan& plan,
-                  const BakeSettings& settings, const EvidenceOptions& options) {
+FoldPlans fold_plans(BakePlan plan) {
+  FoldPlans plans;
+  for (const auto& [lobes, system] : plan.also) {
+    BakePlan other = plan;
+    other.also.clear();
+    other.system = system;
+    plans.other_lobes.emplace(lobes, std::move(other));
+  }
+  plans.plan = std::move(plan);
+  return plans;
+}
+
+BakeSettings with_compared_lobes(BakeSettings settings, const EvidenceOptions& options) {
+  settings.also_lobes = options.other_lobes;
+  std::erase(settings.also_lobes, settings.lobes);
+  return settings;
+}
+
+Evidence evaluate(const StackInfo& info, const TexelBlock& sample, const BakePlan& whole_plan,
+                  const BakeSettings& whole_settings, const EvidenceOptions& options) {
+  const BakeSettings settings = with_compared_lobes(whole_settings, options);
+  BakePlan plan = whole_plan;
+  if (plan.also.size() != settings.also_lobes.size()) {
+    plan_lobes(plan, with_lights(with_gains(info, plan.gains), plan.lights), with_lights(sample, plan.lights),
+               settings);
+  }
   const std::size_t lights = info.lights.size();
   Evidence evidence;
   evidence.folds = fold_count(lights, options.folds);
@@ -350,7 +362,7 @@ Evidence evaluate(const StackInfo& info, const TexelBlock& sample, const BakePla
     const BakePlan fold_plan = plan_bake(info, sample, kept, settings);
     Predictor predictor(info, sample, fold_plan, settings, options, held);
     predictor.predict(out);
-    if (options.on_fold) options.on_fold(fold, {fold_plan, predictor.others()});
+    if (options.on_fold) options.on_fold(fold, fold_plans(fold_plan));
     if (options.progress) options.progress(static_cast<double>(fold + 1) / evidence.folds);
   }
   for (MethodEvidence found : train.methods()) {

@@ -42,6 +42,9 @@ struct FoldPlans {
   std::map<int, BakePlan> other_lobes;  // the same base with other numbers of lobes, by that number
 };
 
+// From a plan with BakePlan::also.
+FoldPlans fold_plans(BakePlan plan);
+
 struct EvidenceOptions {
   int folds = 0;                         // 0: each light by itself up to 24 lights, else folds of about ten
   std::vector<int> other_lobes{4};       // Realis with these numbers of lobes too
@@ -68,6 +71,9 @@ struct Evidence {
   std::vector<MethodEvidence> methods;
   const MethodEvidence* find(const std::string& name) const;
 };
+
+// Settings with which a plan holds all lobes that the evidence compares.
+BakeSettings with_compared_lobes(BakeSettings settings, const EvidenceOptions& options);
 
 // For every fold everything is planned and baked without its lights: normals, albedo, gains, material, lobes,
 // ridge and which texels are corrected; a held-out light has its manifest intensity. sample: texels with all

@@ -66,20 +66,10 @@ FoldPlans plan_fold(const StackInfo& info, const TexelBlock& sample, int fold, i
                     const BakeSettings& settings, std::span<const int> other_lobes) {
   const LightChoice kept = without(info, held_out_lights(info.lights.size(), fold, folds));
   if (kept.empty()) throw std::invalid_argument("plan_fold: no light is left");
-  FoldPlans plans;
-  plans.plan = plan_bake(info, sample, kept, settings);
-  const StackInfo seen = with_lights(with_gains(info, plans.plan.gains), kept);
-  const TexelBlock seen_sample = with_lights(sample, kept);
-  for (const int lobes : other_lobes) {
-    if (lobes == settings.lobes) continue;
-    BakeSettings other = settings;
-    other.lobes = lobes;
-    other.given_lobes.reset();
-    BakePlan plan = plans.plan;
-    plan_lobes(plan, seen, seen_sample, other);
-    plans.other_lobes.emplace(lobes, std::move(plan));
-  }
-  return plans;
+  BakeSettings with_others = settings;
+  with_others.also_lobes.assign(other_lobes.begin(), other_lobes.end());
+  std::erase(with_others.also_lobes, settings.lobes);
+  return fold_plans(plan_bake(info, sample, kept, with_others));
 }
 
 struct HeldOutBaker::State {

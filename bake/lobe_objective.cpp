@@ -13,6 +13,8 @@ namespace {
 
 // Values that start on a bound are moved inside by this share of the range: at the bound nothing moves.
 constexpr double kInside = 0.1;
+// Directions of a class are means over its texels: those of lights far away differ by rounding alone.
+constexpr double kSameDirection = 1e-12;
 
 ClassLoss class_loss(const ResidualClass& residuals, const Eigen::MatrixXd& basis, double penalty,
                      bool with_gradient) {
@@ -64,6 +66,12 @@ LobeSlopes slopes_of(const Lobe& lobe, double cos_axis) {
   return {lobe.sharpness * value + edge * width, (cos_axis - 1.0) * value, -edge * (1.0 - cos_axis)};
 }
 
+bool same_directions(const ResidualClass& a, const ResidualClass& b) {
+  return std::ranges::equal(a.directions, b.directions, [](const Vec3& p, const Vec3& q) {
+    return std::abs(p.x - q.x) + std::abs(p.y - q.y) + std::abs(p.z - q.z) < kSameDirection;
+  });
+}
+
 }  // namespace
 
 LobeBounds bounds_of(std::span<const Vec3> directions) {
@@ -90,8 +98,7 @@ double LobeObjective::Range::inverse(double v) const {
 }
 
 LobeObjective::LobeObjective(std::span<const ResidualClass> classes, int lobes, const LobeBounds& bounds)
-    : classes_(classes),
-      lobes_(lobes),
+    : lobes_(lobes),
       sharpness_{bounds.sharpness_low, bounds.sharpness_high},
       width_{0.5, 1.0 / (1.0 - std::cos(bounds.least_cut_off))},
       ridge_{bounds.ridge_low, bounds.ridge_high} {
@@ -101,6 +108,9 @@ LobeObjective::LobeObjective(std::span<const ResidualClass> classes, int lobes, 
     energy_ += c.factor.squaredNorm();
     modulation += static_cast<double>(c.texels) * c.modulation.squaredNorm();
     texels += static_cast<double>(c.texels);
+    const bool is_like_last = !groups_.empty() && same_directions(*groups_.back().front(), c);
+    if (!is_like_last) groups_.emplace_back();
+    groups_.back().push_back(&c);
   }
   if (modulation > 0.0) unit_ = modulation / texels / lobes;
 }
@@ -132,9 +142,9 @@ double LobeObjective::ridge(std::span<const double> parameters) const {
   return ridge_.value(parameters.back());
 }
 
-// Adds a class's share of the gradient.
-void LobeObjective::add_class(const ResidualClass& residuals, const LobeSet& lobes,
-                              std::span<const double> parameters, const ClassLoss& result,
+// Adds to the gradient what follows from derivatives by the lobes' values under some directions.
+void LobeObjective::add_chain(const std::vector<Vec3>& directions, const Eigen::MatrixXd& by_basis,
+                              const LobeSet& lobes, std::span<const double> parameters,
                               double* gradient) const {
   for (std::size_t k = 0; k < lobes.size(); ++k) {
     const double* p = parameters.data() + 5 * k;
@@ -142,9 +152,9 @@ void LobeObjective::add_class(const ResidualClass& residuals, const LobeSet& lob
     Vec3 by_axis{0.0, 0.0, 0.0};
     double by_sharpness = 0.0;
     double by_width = 0.0;
-    for (std::size_t l = 0; l < residuals.directions.size(); ++l) {
-      const Vec3& d = residuals.directions[l];
-      const double by_value = result.by_basis(static_cast<Eigen::Index>(l), static_cast<Eigen::Index>(k));
+    for (std::size_t l = 0; l < directions.size(); ++l) {
+      const Vec3& d = directions[l];
+      const double by_value = by_basis(static_cast<Eigen::Index>(l), static_cast<Eigen::Index>(k));
       const LobeSlopes slopes = slopes_of(lobes[k], dot(axis, d));
       const double by_cosine = by_value * slopes.by_cosine;
       by_axis = {by_axis.x + by_cosine * d.x, by_axis.y + by_cosine * d.y, by_axis.z + by_cosine * d.z};
@@ -160,13 +170,15 @@ void LobeObjective::add_class(const ResidualClass& residuals, const LobeSet& lob
     g[3] += by_sharpness * sharpness_.slope(p[3]);
     g[4] += by_width * width_.slope(p[4]);
   }
-  gradient[5 * lobes_] += result.by_penalty * unit_ * ridge_.slope(parameters.back());
 }
 
 double LobeObjective::evaluate(const LobeSet& lobes, double ridge) const {
   double loss = 0.0;
-  for (const ResidualClass& residuals : classes_) {
-    loss += class_loss(residuals, lobe_values(lobes, residuals.directions), ridge * unit_, false).loss;
+  for (const auto& group : groups_) {
+    const Eigen::MatrixXd basis = lobe_values(lobes, group.front()->directions);
+    for (const ResidualClass* residuals : group) {
+      loss += class_loss(*residuals, basis, ridge * unit_, false).loss;
+    }
   }
   return energy_ > 0.0 ? loss / energy_ : 0.0;
 }
@@ -176,12 +188,20 @@ double LobeObjective::evaluate(std::span<const double> parameters, double* gradi
   if (gradient == nullptr) return evaluate(set, ridge(parameters));
   std::fill(gradient, gradient + this->parameters(), 0.0);
   double loss = 0.0;
-  for (const ResidualClass& residuals : classes_) {
-    const ClassLoss result =
-        class_loss(residuals, lobe_values(set, residuals.directions), ridge(parameters) * unit_, true);
-    loss += result.loss;
-    add_class(residuals, set, parameters, result, gradient);
+  double by_penalty = 0.0;
+  for (const auto& group : groups_) {
+    const std::vector<Vec3>& directions = group.front()->directions;
+    const Eigen::MatrixXd basis = lobe_values(set, directions);
+    Eigen::MatrixXd by_basis = Eigen::MatrixXd::Zero(basis.rows(), basis.cols());
+    for (const ResidualClass* residuals : group) {
+      const ClassLoss result = class_loss(*residuals, basis, ridge(parameters) * unit_, true);
+      loss += result.loss;
+      by_penalty += result.by_penalty;
+      by_basis += result.by_basis;
+    }
+    add_chain(directions, by_basis, set, parameters, gradient);
   }
+  gradient[5 * lobes_] += by_penalty * unit_ * ridge_.slope(parameters.back());
   const double inverse = energy_ > 0.0 ? 1.0 / energy_ : 0.0;
   for (int k = 0; k < this->parameters(); ++k) gradient[k] *= inverse;
   return loss * inverse;

@@ -57,10 +57,11 @@ class LobeObjective {
     double inverse(double value) const;
   };
 
-  void add_class(const ResidualClass& residuals, const LobeSet& lobes, std::span<const double> parameters,
-                 const ClassLoss& result, double* gradient) const;
+  void add_chain(const std::vector<Vec3>& directions, const Eigen::MatrixXd& by_basis, const LobeSet& lobes,
+                 std::span<const double> parameters, double* gradient) const;
 
-  std::span<const ResidualClass> classes_;
+  // Classes that see their lights alike share the lobes' values: all of them do where lights are far away.
+  std::vector<std::vector<const ResidualClass*>> groups_;
   int lobes_;
   Range sharpness_;
   Range width_;  // 1 / (1 - cos cut-off)

@@ -110,7 +110,9 @@ LobeSearchResult search_lobes(std::span<const ResidualClass> classes, std::span<
   const LobeSearchResult uniform = best_uniform(classes, directions, count);
   if (classes.empty()) return uniform;
   std::vector<Start> starts = {{uniform.lobes, uniform.ridge, "uniform"}};
-  for (int k = 0; k < options.cluster_starts; ++k) {
+  const bool is_given = options.start.size() == static_cast<std::size_t>(count);
+  if (is_given) starts = {{options.start, options.start_ridge, "given"}};
+  for (int k = 0; k < options.cluster_starts && !is_given; ++k) {
     const std::uint64_t seed = options.seed + static_cast<std::uint64_t>(k);
     starts.push_back({cluster_lobes(classes, directions, uniform.lobes, seed), uniform.ridge, "clusters"});
   }

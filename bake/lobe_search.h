@@ -20,6 +20,9 @@ struct LobeSearchOptions {
   int iterations = 120;
   int cluster_starts = 2;
   std::uint64_t seed = 1;
+  // Lobes to start from in place of all other starts; empty: none.
+  LobeSet start;
+  double start_ridge = 1.0;
 };
 
 struct LobeSearchResult {
@@ -28,7 +31,7 @@ struct LobeSearchResult {
   double objective = 0.0;        // as LobeObjective: about the share of the squared error that stays
   double start_objective = 0.0;  // of the best uniform set
   LobeSet uniform;               // that set
-  std::string start;             // which start led here: "uniform" or "clusters"
+  std::string start;             // which start led here: "uniform", "clusters" or "given"
   bool converged = false;        // by Ceres' own test
   int evaluations = 0;
 };

@@ -1,6 +1,9 @@
 // Codes into bytes and back.
 #include "bake/pack.h"
 
+#include <tbb/blocked_range.h>
+#include <tbb/parallel_for.h>
+
 #include <bit>
 #include <stdexcept>
 
@@ -78,6 +81,26 @@ PackedTexels pack(const PackLayout& layout, std::span<const int> codes,
           static_cast<std::uint8_t>(kept >> (8 * byte));
     }
   }
+  return packed;
+}
+
+PackedTexels pack_all(const PackLayout& layout, std::span<const std::uint8_t> stored) {
+  check(layout);
+  const auto planes = static_cast<std::size_t>(layout.slots());
+  if (layout.bits != 8 || layout.dominant != layout.lobes || planes == 0 || stored.size() % planes != 0) {
+    throw std::invalid_argument("pack_all: no such layout");
+  }
+  const std::size_t texels = stored.size() / planes;
+  PackedTexels packed;
+  packed.textures.assign(static_cast<std::size_t>(layout.textures()), std::vector<std::uint8_t>(texels * 4));
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, texels, 4096), [&](const auto& range) {
+    for (std::size_t slot = 0; slot < 4 * packed.textures.size(); ++slot) {
+      std::uint8_t* to = packed.textures[slot / 4].data() + slot % 4;
+      for (std::size_t k = range.begin(); k < range.end(); ++k) {
+        to[4 * k] = slot < planes ? stored[slot * texels + k] : std::uint8_t{0x80};
+      }
+    }
+  });
   return packed;
 }
 

@@ -42,6 +42,10 @@ struct PackedTexels {
 // is out of range or a mask has too many bits.
 PackedTexels pack(const PackLayout& layout, std::span<const int> codes, std::span<const std::uint32_t> masks);
 
+// The same for 8 bits with all lobes kept, in parallel over texels. stored: [lobe][channel][texel], codes
+// with their zeros added.
+PackedTexels pack_all(const PackLayout& layout, std::span<const std::uint8_t> stored);
+
 // The inverse: codes as given to pack, 0 for lobes that were not kept. masks: filled in.
 std::vector<int> unpack(const PackLayout& layout, const PackedTexels& packed, std::size_t texels,
                         std::vector<std::uint32_t>* masks = nullptr);

@@ -4,7 +4,6 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <numeric>
 #include <stdexcept>
@@ -15,12 +14,6 @@
 
 namespace brdfit::bake {
 namespace {
-
-using Clock = std::chrono::steady_clock;
-
-double seconds_since(Clock::time_point start) {
-  return std::chrono::duration<double>(Clock::now() - start).count();
-}
 
 std::vector<float> shades_of(const StackInfo& info, const TexelBlock& block, const Surface& surface) {
   const std::size_t texels = block.count();
@@ -43,6 +36,10 @@ const std::vector<int> kLobeCounts = {2, 4, 6, 8, 12, 16};
 }  // namespace
 
 bool BakeSettings::is_valid(std::string* why) const {
+  if (given_penalty && !(*given_penalty > 0.0 && std::isfinite(*given_penalty))) {
+    if (why != nullptr) *why = "given_penalty must be positive";
+    return false;
+  }
   if (lobes >= 0 && lobes <= kMaxLobes) return true;
   if (why != nullptr) *why = fmt::format("lobes is {}, not in [0, {}]", lobes, kMaxLobes);
   return false;
@@ -100,6 +97,90 @@ std::vector<TexelProblem> problems_of(const StackInfo& info, const TexelBlock& b
   return problems;
 }
 
+// Squared modulations of a white texel that faces the viewer: a scale for lobes whose penalty is known, which
+// does not depend on any picture.
+std::vector<double> facing_modulation(const StackInfo& info) {
+  std::vector<double> squares;
+  for (const StackLight& light : info.lights) {
+    const Vec3& d = light.direction;
+    double luminance = 0.0;
+    for (std::size_t c = 0; c < 3; ++c) luminance += kLuminance[c] * light.intensity[c];
+    const double cosine = d.x * info.view.x + d.y * info.view.y + d.z * info.view.z;
+    squares.push_back(std::pow(luminance * std::max(cosine, 0.0), 2));
+  }
+  return squares;
+}
+
+LobeSystem given_system(const StackInfo& info, const BakeSettings& settings) {
+  return LobeSystem::with_penalty(*settings.given_lobes, directions_of(info), facing_modulation(info),
+                                  *settings.given_penalty);
+}
+
+}  // namespace
+
+bool is_decided(const BakeSettings& settings) {
+  return settings.base == BaseKind::kLambert && !settings.gains && settings.given_lobes &&
+         settings.given_penalty;
+}
+
+BakePlan decided_plan(const StackInfo& info, const BakeSettings& settings) {
+  std::string why = "something is left to decide";
+  if (!is_decided(settings) || !settings.is_valid(&why)) {
+    throw std::invalid_argument("decided_plan: " + why);
+  }
+  BakePlan plan;
+  plan.lights = all_lights(info);
+  plan.gains.assign(info.lights.size(), 1.0);
+  plan.system.emplace(given_system(info, settings));
+  TexelProblem empty;
+  empty.lights = info.lights.size();
+  plan.warnings =
+      solve_warnings(plan.system->directions(), plan.system->lobes().size(), &*plan.system, empty);
+  return plan;
+}
+
+namespace {
+
+// Those that are not given, and those to compare with.
+void choose_open_lobes(BakePlan& plan, const ProblemOf& problem_of, std::span<const Vec3> directions,
+                       const BakeSettings& settings) {
+  for (const int count : settings.also_lobes) plan.also[count].reset();
+  if (directions.size() < 2) return;
+  std::vector<std::vector<int>> groups;
+  for (const int count : settings.also_lobes) groups.push_back({count});
+  if (!settings.given_lobes) {
+    groups.push_back(settings.lobes == 0 ? kLobeCounts : std::vector<int>{settings.lobes});
+  }
+  if (groups.empty()) return;
+  ChoiceOptions options;
+  options.optimise = settings.optimise;
+  options.search.seed = settings.seed;
+  options.classes.seed = settings.seed;
+  std::vector<LobeChoice> choices = choose_lobes_each(problem_of, directions, groups, options);
+  const auto system_of = [&](const LobeChoice& choice) -> std::optional<LobeSystem> {
+    if (choice.lobes.empty()) return std::nullopt;
+    return LobeSystem(choice.lobes, directions, choice.squared_modulation, choice.ridge);
+  };
+  for (std::size_t k = 0; k < settings.also_lobes.size(); ++k) {
+    plan.also[settings.also_lobes[k]] = system_of(choices[k]);
+  }
+  if (settings.given_lobes) return;
+  plan.system = system_of(choices.back());
+  plan.lobe_choice = std::move(choices.back());
+}
+
+// Choices are made on so many texels; more of them say little that is new.
+constexpr std::size_t kChoiceTexels = 4096;
+
+TexelBlock thinned(const TexelBlock& block, std::size_t at_most) {
+  if (block.count() <= at_most) return block;
+  std::vector<std::uint32_t> places;
+  for (std::size_t k = 0; k < at_most; ++k) {
+    places.push_back(static_cast<std::uint32_t>(k * block.count() / at_most));
+  }
+  return chosen_texels(block, places);
+}
+
 // The least that would have been baked.
 std::size_t lobes_asked_for(const BakeSettings& settings) {
   if (settings.given_lobes) return settings.given_lobes->size();
@@ -123,22 +204,15 @@ void plan_lobes(BakePlan& plan, const StackInfo& info, const TexelBlock& sample,
   std::vector<std::size_t> all(info.lights.size());
   std::iota(all.begin(), all.end(), std::size_t{0});
   const TexelProblem problem = problem_of(all);
-  if (settings.given_lobes) {
+  if (settings.given_lobes && settings.given_penalty) {
+    plan.system.emplace(given_system(info, settings));
+  } else if (settings.given_lobes) {
     const RidgeChoice ridge = choose_ridge(*settings.given_lobes, directions, problem);
     if (ridge.helps()) {
       plan.system.emplace(*settings.given_lobes, directions, mean_squared_modulation(problem), ridge.ridge);
     }
-  } else if (info.lights.size() >= 2) {
-    ChoiceOptions options;
-    options.counts = settings.lobes == 0 ? kLobeCounts : std::vector<int>{settings.lobes};
-    options.optimise = settings.optimise;
-    options.search.seed = settings.seed;
-    options.classes.seed = settings.seed;
-    plan.lobe_choice = choose_lobes(problem_of, directions, options);
-    const LobeChoice& choice = *plan.lobe_choice;
-    if (!choice.lobes.empty())
-      plan.system.emplace(choice.lobes, directions, choice.squared_modulation, choice.ridge);
   }
+  choose_open_lobes(plan, problem_of, directions, settings);
   const std::size_t lobes = plan.system ? plan.system->lobes().size() : lobes_asked_for(settings);
   const LobeSystem* system = plan.system ? &*plan.system : nullptr;
   plan.warnings = solve_warnings(directions, lobes, system, problem);
@@ -186,17 +260,13 @@ BakePlan plan_bake(const StackInfo& whole, const TexelBlock& whole_sample, const
   BakePlan plan;
   plan.lights = lights;
   plan.gains.assign(whole.lights.size(), 1.0);
-  const TexelBlock sample = with_lights(whole_sample, lights);
-  Clock::time_point start = Clock::now();
+  const TexelBlock sample = with_lights(thinned(whole_sample, kChoiceTexels), lights);
   plan_base(plan, with_lights(whole, lights), sample, settings);
   for (std::size_t k = 0; plan.gain_estimate && k < lights.size(); ++k) {
     plan.gains[lights[k]] = plan.gain_estimate->gain[k];
   }
-  plan.timings.base_seconds = seconds_since(start);
   const StackInfo info = with_lights(with_gains(whole, plan.gains), lights);
-  start = Clock::now();
   plan_lobes(plan, info, sample, settings);
-  plan.timings.lobes_seconds = seconds_since(start);
   return plan;
 }
 

@@ -4,6 +4,7 @@
 #define BRDFIT_BAKE_PLAN_H_
 
 #include <cstdint>
+#include <map>
 #include <optional>
 #include <span>
 #include <string>
@@ -29,9 +30,11 @@ enum class BaseKind {
 };
 
 struct BakeSettings {
-  int lobes = 8;                       // 0: chosen by held-out error; at most kMaxLobes
-  bool optimise = true;                // otherwise lobes stay uniform
-  std::optional<LobeSet> given_lobes;  // these, whatever the two above say
+  int lobes = 8;                        // 0: chosen by held-out error; at most kMaxLobes
+  bool optimise = true;                 // otherwise lobes stay uniform
+  std::vector<int> also_lobes;          // numbers for which lobes are planned beside, to compare with
+  std::optional<LobeSet> given_lobes;   // these, whatever the two above say
+  std::optional<double> given_penalty;  // and this penalty (LobeSystem::penalty), > 0; else a ridge is chosen
   BaseKind base = BaseKind::kAuto;
   Model model = Model::kCallisto;  // of the material
   RealisColour colour = RealisColour::kLuminance;
@@ -42,30 +45,31 @@ struct BakeSettings {
   bool is_valid(std::string* why) const;
 };
 
-// A stage's part of the time that planning took.
-struct PlanTimings {
-  double base_seconds = 0.0;  // gains and the base model
-  double lobes_seconds = 0.0;
-};
-
 struct BakePlan {
   LightChoice lights;         // looked at
   std::vector<double> gains;  // per light of the stack: what its stated intensity is multiplied by. 1 where
                               // not estimated, and for lights that were not looked at
   std::optional<GainEstimate> gain_estimate;
   BaseModel base;
-  std::optional<SharedMaterial> material;  // the fit, where there is one, whether or not it was chosen
-  std::vector<BaseCandidate> candidates;   // that were compared; empty where the base was given
-  std::optional<LobeSystem> system;        // nothing where no lobes help
-  std::optional<LobeChoice> lobe_choice;   // what was compared; nothing where lobes were given
-  std::vector<SolveWarning> warnings;      // what makes the lobes hard to solve for, by name
-  PlanTimings timings;
+  std::optional<SharedMaterial> material;         // the fit, where there is one, whether or not it was chosen
+  std::vector<BaseCandidate> candidates;          // that were compared; empty where the base was given
+  std::optional<LobeSystem> system;               // nothing where no lobes help
+  std::map<int, std::optional<LobeSystem>> also;  // for each of BakeSettings::also_lobes
+  std::optional<LobeChoice> lobe_choice;          // what was compared; nothing where lobes were given
+  std::vector<SolveWarning> warnings;             // what makes the lobes hard to solve for
 };
 
-// Decides all of it. sample: texels of the stack with all its lights, of which only `lights` are looked at.
+// Decides all of it. sample: texels of the stack with all its lights, of which only `lights` are looked at;
+// of more than a few thousand texels some are left out.
 // Throws std::invalid_argument where settings are invalid or sizes disagree.
 BakePlan plan_bake(const StackInfo& info, const TexelBlock& sample, const LightChoice& lights,
                    const BakeSettings& settings);
+
+// Whether settings leave nothing to decide, so that no sample is needed: Lambert, no gains, lobes with their
+// penalty.
+bool is_decided(const BakeSettings& settings);
+// The plan that they are, for all lights. Throws std::invalid_argument where they leave something open.
+BakePlan decided_plan(const StackInfo& info, const BakeSettings& settings);
 
 // Decides the lobes alone, for a base that is planned. info, sample: of the plan's lights alone, gains in the
 // intensities.

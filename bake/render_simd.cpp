@@ -146,6 +146,26 @@ HWY_FLATTEN void solve_base_colour(const BaseColourJob& job) {
   }
 }
 
+// Values without weight leave a residual too, which nobody looks at.
+HWY_FLATTEN void leave_luminance(const BaseColourJob& job) {
+  using V = Lanes<float>;
+  for (std::size_t at = 0; at < kChunk; at += V::size) {
+    const VecOf<float> colour = load_rows(job.base_colour, at);
+    const V base[3] = {colour.x, colour.y, colour.z};
+    for (std::size_t k = 0; k < job.affine.lights.count; ++k) {
+      const float* value = job.values.value + job.values.light[k] * job.values.light_stride + at;
+      V left(0.0);
+      for (std::size_t c = 0; c < 3; ++c) {
+        const std::size_t row = (3 * k + c) * kChunk + at;
+        const V render =
+            multiply_add(V::load(job.affine.slope + row), base[c], V::load(job.affine.offset + row));
+        left = multiply_add(V(job.mix[c]), V::load(value + c * job.values.channel_stride) - render, left);
+      }
+      left.store(job.residual + k * job.residual_stride + at);
+    }
+  }
+}
+
 // Base colours by reweighted least squares, then residuals r sqrt(2 / (sqrt(1 + t^2) + 1)) with t = r /
 // width, whose squares are twice the pseudo-Huber costs.
 HWY_FLATTEN void project(const ProjectionJob& job) {
@@ -227,6 +247,7 @@ void render_chunk(const RenderJob& job) {
 void base_colour_chunk(const BaseColourJob& job) {
   affine_any(job.affine);
   solve_base_colour(job);
+  if (job.residual != nullptr) leave_luminance(job);
 }
 
 }  // namespace brdfit::simd::BRDFIT_SIMD_ISA

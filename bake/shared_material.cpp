@@ -200,11 +200,21 @@ class SharedFit {
     return projection_.gram(ends(x), aside, cost);
   }
 
+  // The numbers of a material, inside their bounds.
+  std::vector<double> start(const Material& material) const {
+    std::vector<double> x = parametrisation_.from_material(material);
+    for (std::size_t k = 0; k < x.size(); ++k) {
+      x[k] = std::clamp(x[k], parametrisation_.free[k].lower, parametrisation_.free[k].upper);
+    }
+    return x;
+  }
+
   Material material(std::span<const double> x) const { return parametrisation_.to_material(x); }
 
-  fit::Solution solve(const std::vector<double>& x, int max_iterations) const {
+  fit::Solution solve(const std::vector<double>& x, int max_iterations, double tolerance) const {
     fit::SolveOptions options;
     options.max_iterations = max_iterations;
+    options.function_tolerance = tolerance;
     return fit::solve_pinning(objective(), x, fit::full_box(parametrisation_), options);
   }
 
@@ -248,10 +258,15 @@ std::vector<double> start_of(const fit::Parametrisation& parametrisation, const 
   return x;
 }
 
+// Starts need not be followed to their ends to tell which is best.
+constexpr double kExploredTolerance = 1e-4;
+constexpr double kRefinedTolerance = 1e-6;
+
 fit::Solution best_of(const SharedFit& fit, const std::vector<Values>& starts, int max_iterations) {
   fit::Solution best;
   for (const Values& start : starts) {
-    fit::Solution solution = fit.solve(start_of(fit.parametrisation(), start), max_iterations);
+    fit::Solution solution =
+        fit.solve(start_of(fit.parametrisation(), start), max_iterations, kExploredTolerance);
     if (best.x.empty() || solution.cost < best.cost) best = std::move(solution);
   }
   return best;
@@ -323,29 +338,31 @@ bool SharedMaterialOptions::is_valid(std::string* why) const {
   return true;
 }
 
-SharedMaterial fit_shared_material(const StackInfo& info, const TexelBlock& block, const Surface& surface,
-                                   const LightChoice& lights, const SharedMaterialOptions& options) {
-  std::string why;
-  if (!options.is_valid(&why)) throw std::invalid_argument("fit_shared_material: " + why);
-  if (surface.count() != block.count() || block.lights != info.lights.size()) {
-    throw std::invalid_argument("fit_shared_material: sizes disagree");
-  }
-  constexpr std::size_t kFewestTexels = 192;
-  const std::size_t per_texel = std::max<std::size_t>(3 * lights.size(), 1);
-  SharedMaterial result;
-  Surface sampled;
-  const TexelBlock sample =
-      sample_of(block, surface, std::max(kFewestTexels, options.values / per_texel), sampled);
-  result.texels = sample.count();
-  if (sample.count() == 0 || lights.empty()) {
-    result.termination = "no texel has a normal of its own";
-    return result;
-  }
-  result.lambert_rmse = luminance_rmse(sample, render_block(info, sample, sampled, lights, {}), lights);
-  result.rmse = result.lambert_rmse;
-  const double width = options.robust_width * lambert_deviation(info, sample, sampled, lights);
-  const Projection projection(info, sample, sampled, lights, width);
+namespace {
 
+// Texels of a fit with their residuals, and what is known before it.
+struct Data {
+  TexelBlock sample;
+  Surface surface;
+  double width = 0.0;  // of the robust loss
+};
+
+Data data_of(const StackInfo& info, const TexelBlock& block, const Surface& surface,
+             const LightChoice& lights, std::size_t values, std::size_t fewest_texels, double robust_width) {
+  Data data;
+  const std::size_t per_texel = std::max<std::size_t>(3 * lights.size(), 1);
+  data.sample = sample_of(block, surface, std::max(fewest_texels, values / per_texel), data.surface);
+  if (data.sample.count() == 0 || lights.empty()) return data;
+  data.width = robust_width * lambert_deviation(info, data.sample, data.surface, lights);
+  return data;
+}
+
+struct Found {
+  Material material;
+  fit::Solution solution;
+};
+
+Found explore(const Projection& projection, const SharedMaterialOptions& options) {
   // The plain highlight first: it tells where the refinements of a model begin.
   const SharedFit plain(projection, options, Effects());
   std::vector<Values> starts;
@@ -353,34 +370,96 @@ SharedMaterial fit_shared_material(const StackInfo& info, const TexelBlock& bloc
     starts.push_back(off_neutral(1.0));
     starts.back()["roughness"] = roughness;
   }
-  fit::Solution solution = best_of(plain, starts, options.max_iterations);
-  Material material = plain.material(solution.x);
+  Found found;
+  found.solution = best_of(plain, starts, options.max_iterations);
+  found.material = plain.material(found.solution.x);
   const SharedFit full(projection, options, usable_effects(options));
-  const SharedFit* chosen = &plain;
-  if (full.parametrisation().size() > plain.parametrisation().size()) {
-    starts.clear();
-    for (const double sign : {1.0, -1.0}) {
-      starts.push_back(off_neutral(sign));
-      for (const char* name : {"metallic", "specular", "roughness"})
-        starts.back()[name] = material.number(name);
-    }
-    fit::Solution refined = best_of(full, starts, options.max_iterations);
-    if (refined.cost < solution.cost) {
-      solution = std::move(refined);
-      material = full.material(solution.x);
-      chosen = &full;
+  if (full.parametrisation().size() == plain.parametrisation().size()) return found;
+  starts.clear();
+  for (const double sign : {1.0, -1.0}) {
+    starts.push_back(off_neutral(sign));
+    for (const char* name : {"metallic", "specular", "roughness"}) {
+      starts.back()[name] = found.material.number(name);
     }
   }
-  result.model = {material, width};
-  result.converged = solution.converged;
-  result.termination = solution.termination;
-  result.iterations = solution.iterations;
-  const Surface coloured = with_base_colour(info, sample, sampled, lights, result.model);
-  result.rmse = luminance_rmse(sample, render_block(info, sample, coloured, lights, result.model), lights);
+  fit::Solution refined = best_of(full, starts, options.max_iterations);
+  if (!(refined.cost < found.solution.cost)) return found;
+  found.material = full.material(refined.x);
+  found.solution = std::move(refined);
+  return found;
+}
+
+bool has_texels(const Data& data, const LightChoice& lights) {
+  return data.sample.count() > 0 && !lights.empty();
+}
+
+void check(const StackInfo& info, const TexelBlock& block, const Surface& surface,
+           const SharedMaterialOptions& options) {
+  std::string why;
+  if (!options.is_valid(&why)) throw std::invalid_argument("fit_shared_material: " + why);
+  if (surface.count() != block.count() || block.lights != info.lights.size()) {
+    throw std::invalid_argument("fit_shared_material: sizes disagree");
+  }
+}
+
+constexpr std::size_t kFewestTexels = 192;
+constexpr std::size_t kFewestExplored = 48;
+
+// What a fit says of itself; the base colour is the mean of the texels'.
+SharedMaterial described(const StackInfo& info, const Data& data, const LightChoice& lights,
+                         const Found& found) {
+  SharedMaterial result;
+  result.texels = data.sample.count();
+  result.lambert_rmse =
+      luminance_rmse(data.sample, render_block(info, data.sample, data.surface, lights, {}), lights);
+  result.model = {found.material, data.width};
+  result.converged = found.solution.converged;
+  result.termination = found.solution.termination;
+  result.iterations = found.solution.iterations;
+  const Surface coloured = with_base_colour(info, data.sample, data.surface, lights, result.model);
+  result.rmse =
+      luminance_rmse(data.sample, render_block(info, data.sample, coloured, lights, result.model), lights);
   result.model.material->set("base_color", mean_colour(coloured));
+  return result;
+}
+
+SharedMaterial nothing_to_fit() {
+  SharedMaterial result;
+  result.termination = "no texel has a normal of its own";
+  return result;
+}
+
+}  // namespace
+
+SharedMaterial explore_shared_material(const StackInfo& info, const TexelBlock& block, const Surface& surface,
+                                       const LightChoice& lights, const SharedMaterialOptions& options) {
+  check(info, block, surface, options);
+  const Data data =
+      data_of(info, block, surface, lights, options.explored_values, kFewestExplored, options.robust_width);
+  if (!has_texels(data, lights)) return nothing_to_fit();
+  const Projection projection(info, data.sample, data.surface, lights, data.width);
+  return described(info, data, lights, explore(projection, options));
+}
+
+SharedMaterial fit_shared_material(const StackInfo& info, const TexelBlock& block, const Surface& surface,
+                                   const LightChoice& lights, const SharedMaterialOptions& options) {
+  check(info, block, surface, options);
+  std::optional<Material> start = options.start;
+  if (!start) start = explore_shared_material(info, block, surface, lights, options).model.material;
+  const Data data = data_of(
+      info, block, surface, lights, options.values,
+      std::min<std::size_t>(kFewestTexels, std::max<std::size_t>(kFewestExplored, options.values / 100)),
+      options.robust_width);
+  if (!start || !has_texels(data, lights)) return nothing_to_fit();
+  const Projection projection(info, data.sample, data.surface, lights, data.width);
+  const SharedFit full(projection, options, usable_effects(options));
+  Found found;
+  found.solution = full.solve(full.start(*start), options.max_iterations, kRefinedTolerance);
+  found.material = full.material(found.solution.x);
+  SharedMaterial result = described(info, data, lights, found);
   const fit::Identifiability seen =
-      fit::identify(chosen->parametrisation(), solution.x, chosen->gram(solution.x, nullptr));
-  result.parameters = fit::public_states(chosen->parametrisation(), solution.x, seen);
+      fit::identify(full.parametrisation(), found.solution.x, full.gram(found.solution.x, nullptr));
+  result.parameters = fit::public_states(full.parametrisation(), found.solution.x, seen);
   std::erase_if(result.parameters, [](const auto& state) { return state.name == "base_color"; });
   return result;
 }

@@ -2,6 +2,7 @@
 #ifndef BRDFIT_BAKE_SHARED_MATERIAL_H_
 #define BRDFIT_BAKE_SHARED_MATERIAL_H_
 
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,7 +27,12 @@ struct SharedMaterialOptions {
   double least_roughness = 0.15;
   // Values looked at, about: texels are thinned evenly, those that are black or without a normal left out.
   std::size_t values = 60000;
+  // Starts are followed on so many values, about, before the best is refined on all.
+  std::size_t explored_values = 9000;
   int max_iterations = 60;
+  // Refined in place of any other start; nothing: starts are explored. What it was fitted to must not hold
+  // lights that are to be held out.
+  std::optional<Material> start;
 
   bool is_valid(std::string* why) const;
 };
@@ -51,6 +57,10 @@ struct SharedMaterial {
 // Throws std::invalid_argument where sizes disagree or options are invalid.
 SharedMaterial fit_shared_material(const StackInfo& info, const TexelBlock& block, const Surface& surface,
                                    const LightChoice& lights, const SharedMaterialOptions& options = {});
+
+// The best of the starts on few values: where fits of the same model to some of the lights may start.
+SharedMaterial explore_shared_material(const StackInfo& info, const TexelBlock& block, const Surface& surface,
+                                       const LightChoice& lights, const SharedMaterialOptions& options = {});
 
 }  // namespace brdfit::bake
 

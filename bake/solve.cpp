@@ -12,7 +12,7 @@
 #include <stdexcept>
 #include <utility>
 
-#include "bake/solve_job.h"
+#include "bake/solve_parallel.h"
 
 namespace brdfit::simd {
 
@@ -44,34 +44,11 @@ void check(const LobeSystem& system, const TexelProblem& problem) {
 
 void solve_directional(const LobeSystem& system, const TexelProblem& problem, const SolveOptions& options,
                        SolveResult& result) {
-  const LobeSystem::Packed& packed = system.packed();
-  SolveJob job;
-  job.width = packed.width;
-  job.lobes = static_cast<int>(system.lobes().size());
-  job.lights = problem.lights;
-  job.stride = problem.texels;
+  SolveJob job = solve_job(system, problem.lights, problem.texels, options, result);
   job.residual = problem.residual.data();
   job.modulation = problem.modulation.data();
   job.weight = problem.weight.empty() ? nullptr : problem.weight.data();
-  job.basis = packed.basis.data();
-  job.products = packed.products.data();
-  job.penalty = packed.penalty.data();
-  job.mixes = packed.mixes.data();
-  job.leave_one_out = options.leave_one_out;
-  job.select = options.select;
-  job.amplitudes = result.amplitudes.data();
-  job.confidence = result.confidence.data();
-  job.error_with = result.error_with.data();
-  job.error_without = result.error_without.data();
-  const SolveFunction run = solve_function(options.isa);
-  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, problem.texels, kGrain), [&](const auto& range) {
-    std::vector<float> scratch(3 * kMostTexelsAtOnce * (problem.lights + kLightGroup));
-    SolveJob part = job;
-    part.first = range.begin();
-    part.count = range.size();
-    part.scratch = scratch.data();
-    run(part);
-  });
+  solve_parallel(job, options.isa);
 }
 
 // gram^-1 right; mixes of lobes that the matrix does not determine get 0.
@@ -143,6 +120,12 @@ LobeSystem::LobeSystem(LobeSet lobes, std::span<const Vec3> directions,
   pack(gram);
 }
 
+LobeSystem LobeSystem::with_penalty(LobeSet lobes, std::span<const Vec3> directions,
+                                    std::span<const double> squared_modulation, double penalty) {
+  const LobeSystem unit(lobes, directions, squared_modulation, 1.0);
+  return {std::move(lobes), directions, squared_modulation, penalty / unit.penalty()};
+}
+
 void LobeSystem::pack(const Eigen::MatrixXd& gram) {
   const Eigen::Index count = gram.rows();
   packed_.width = static_cast<int>((count + 3) / 4 * 4);
@@ -185,16 +168,60 @@ void LobeSystem::pack(const Eigen::MatrixXd& gram) {
   }
 }
 
+SolveJob solve_job(const LobeSystem& system, std::size_t lights, std::size_t texels,
+                   const SolveOptions& options, SolveResult& result) {
+  result.amplitudes.assign(system.lobes().size() * texels, 0.0F);
+  result.confidence.assign(texels, 0.0F);
+  result.error_with.assign(texels, 0.0F);
+  result.error_without.assign(texels, 0.0F);
+  const LobeSystem::Packed& packed = system.packed();
+  SolveJob job;
+  job.width = packed.width;
+  job.lobes = static_cast<int>(system.lobes().size());
+  job.lights = lights;
+  job.stride = texels;
+  job.basis = packed.basis.data();
+  job.products = packed.products.data();
+  job.penalty = packed.penalty.data();
+  job.mixes = packed.mixes.data();
+  job.leave_one_out = options.leave_one_out;
+  job.select = options.select;
+  job.amplitudes = result.amplitudes.data();
+  job.confidence = result.confidence.data();
+  job.error_with = result.error_with.data();
+  job.error_without = result.error_without.data();
+  return job;
+}
+
+void solve_parallel(const SolveJob& job, simd::Isa isa, const NoiseOf& noise_of) {
+  const SolveFunction run = solve_function(isa);
+  tbb::parallel_for(tbb::blocked_range<std::size_t>(0, job.stride, kGrain), [&](const auto& range) {
+    std::vector<float> scratch(3 * kMostTexelsAtOnce * (job.lights + kLightGroup));
+    std::vector<float> noise;
+    SolveJob part = job;
+    part.first = range.begin();
+    part.count = range.size();
+    part.scratch = scratch.data();
+    RoundJob round;
+    if (job.round != nullptr) {
+      round = *job.round;
+      if (noise_of) {
+        noise_of(part.first, part.count, noise);
+        round.noise = noise.data();
+      }
+      part.round = &round;
+    }
+    run(part);
+  });
+}
+
 SolveResult solve(const LobeSystem& system, const TexelProblem& problem, const SolveOptions& options) {
   check(system, problem);
   SolveResult result;
-  result.amplitudes.assign(system.lobes().size() * problem.texels, 0.0F);
-  result.confidence.assign(problem.texels, 0.0F);
-  result.error_with.assign(problem.texels, 0.0F);
-  result.error_without.assign(problem.texels, 0.0F);
   if (problem.directions.empty()) {
     solve_directional(system, problem, options, result);
   } else {
+    solve_job(system, problem.lights, problem.texels, options, result);
     tbb::parallel_for(std::size_t{0}, problem.texels,
                       [&](std::size_t texel) { solve_near(system, problem, options, texel, result); });
   }

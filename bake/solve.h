@@ -28,6 +28,10 @@ class LobeSystem {
   LobeSystem(LobeSet lobes, std::span<const Vec3> directions, std::span<const double> squared_modulation,
              double ridge);
 
+  // The same with the penalty itself in place of the ridge, for lobes whose penalty another stack has chosen.
+  static LobeSystem with_penalty(LobeSet lobes, std::span<const Vec3> directions,
+                                 std::span<const double> squared_modulation, double penalty);
+
   const LobeSet& lobes() const { return lobes_; }
   const std::vector<Vec3>& directions() const { return directions_; }
   const Eigen::MatrixXd& basis() const { return basis_; }  // lights x lobes

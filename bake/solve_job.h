@@ -3,6 +3,7 @@
 #define BRDFIT_BAKE_SOLVE_JOB_H_
 
 #include <cstddef>
+#include <cstdint>
 
 namespace brdfit::bake {
 
@@ -15,6 +16,32 @@ inline constexpr std::size_t kLightGroup = 8;
 
 inline constexpr std::size_t kMostTexelsAtOnce = 32;
 
+// Values and normals in place of a problem's planes: residuals and modulations are formed as they are needed,
+// which costs less than to write and read them. Directional lights alone.
+struct ShadeSource {
+  const float* values = nullptr;      // [light][channel][texel]
+  std::size_t channels = 3;           // of values: 3, or 1 where they are luminances
+  bool is_residual = false;           // values are what a render leaves of luminance
+  const float* render = nullptr;      // [light][3][texel]; null: Lambert's, of the albedo
+  const float* normals = nullptr;     // [3][texel]
+  const float* albedo = nullptr;      // [3][texel]
+  const float* direction = nullptr;   // [light][3]
+  const float* colour = nullptr;      // [light][3]: intensity x what the channel weighs in luminance
+  float mix[3] = {0.0F, 0.0F, 0.0F};  // what channels weigh
+  bool albedo_in_modulation = false;
+};
+
+// Amplitudes to stored codes, each rounded at its best value given those that are rounded already; as
+// bake/codes.h has it for codes of 8 bits.
+struct RoundJob {
+  const float* steps = nullptr;    // [lobe]: amplitude of one code, > 0
+  const float* zeros = nullptr;    // [lobe]: how 0 is stored
+  const float* noise = nullptr;    // [lobe][texel of the job], in [-0.5, 0.5); null: no dither
+  float dither = 0.0F;             // strength of dither
+  float top = 255.0F;              // the largest number that is stored
+  std::uint8_t* stored = nullptr;  // [lobe][texel], as amplitudes
+};
+
 // Texels [first, first + count) of planes with `stride` texels per row. Unknowns are mixes of lobes.
 struct SolveJob {
   int width = 0;  // unknowns: 4, 8, 12 or 16
@@ -23,17 +50,19 @@ struct SolveJob {
   std::size_t stride = 0;
   std::size_t first = 0;
   std::size_t count = 0;
-  const float* residual = nullptr;    // [light][texel]
-  const float* modulation = nullptr;  // [light][texel]
-  const float* weight = nullptr;      // [light][texel]; null: all 1
-  const float* basis = nullptr;       // [padded light][width]
-  const float* products = nullptr;    // [padded light][width (width + 1) / 2], lower triangles by rows
-  const float* penalty = nullptr;     // [width (width + 1) / 2], likewise
-  const float* mixes = nullptr;       // [lobe][width]: amplitudes of the unknowns
-  float* scratch = nullptr;           // 3 x padded lights x kMostTexelsAtOnce
+  const float* residual = nullptr;      // [light][texel]
+  const float* modulation = nullptr;    // [light][texel]
+  const ShadeSource* source = nullptr;  // in place of the two
+  const float* weight = nullptr;        // [light][texel]; null: all 1
+  const float* basis = nullptr;         // [padded light][width]
+  const float* products = nullptr;      // [padded light][width (width + 1) / 2], lower triangles by rows
+  const float* penalty = nullptr;       // [width (width + 1) / 2], likewise
+  const float* mixes = nullptr;         // [lobe][width]: amplitudes of the unknowns
+  float* scratch = nullptr;             // 3 x padded lights x kMostTexelsAtOnce
   bool leave_one_out = true;
   bool select = true;
-  float* amplitudes = nullptr;  // [lobe][texel]
+  const RoundJob* round = nullptr;  // null: no codes
+  float* amplitudes = nullptr;      // [lobe][texel]
   float* confidence = nullptr;
   float* error_with = nullptr;
   float* error_without = nullptr;

@@ -11,12 +11,16 @@ namespace brdfit::simd::BRDFIT_SIMD_ISA {
 namespace {
 
 using bake::kLightGroup;
+using bake::RoundJob;
+using bake::ShadeSource;
 using bake::SolveJob;
 using V = Lanes<float>;
 
 constexpr int kWide = 2;  // vectors of texels that share each broadcast value
 constexpr std::size_t kStep = kWide * V::size;
 constexpr int kChunk = V::size >= 16 ? 12 : 6;  // sums held in registers at once
+// Residuals beyond this count as not finite.
+constexpr double kLargest = 3e38;
 // The least pivot, as a share of the diagonal: above the rounding that is left of one that should be 0.
 constexpr double kLeastPivot = 4e-6;
 constexpr double kTiny = 1e-30;
@@ -51,6 +55,7 @@ class TexelSolver {
       sum_products<0>();
       invert();
       solve();
+      if (job_.round != nullptr) round(at, length);
       errors();
       store(job_.first + at, length);
     }
@@ -61,6 +66,7 @@ class TexelSolver {
 
   // Residual and modulation, both times the root of the weight.
   HWY_NOINLINE void load(std::size_t first, std::size_t length) {
+    if (job_.source != nullptr) return shade(first, length);
     for (std::size_t l = 0; l < job_.lights; ++l) {
       const std::size_t from = l * job_.stride + first;
       if (length == kStep) {
@@ -85,6 +91,99 @@ class TexelSolver {
       residual_[l * kStep + k] = k < length ? weight[k] * job_.residual[from + k] : 0.0F;
       modulation_[l * kStep + k] = k < length ? weight[k] * job_.modulation[from + k] : 0.0F;
     }
+  }
+
+  // A source's planes from a texel on, of one light where it has several.
+  struct Planes {
+    const float* values;
+    const float* render;
+    const float* weight;
+    std::size_t stride;
+  };
+  struct Facts {  // of a vector of texels
+    V normal[3];
+    V albedo[3];
+  };
+
+  HWY_INLINE Facts facts_at(const float* normals, const float* albedo, std::size_t stride) const {
+    Facts facts;
+    for (std::size_t c = 0; c < 3; ++c) {
+      facts.normal[c] = V::load(normals + c * stride);
+      facts.albedo[c] = V::load(albedo + c * stride);
+    }
+    return facts;
+  }
+
+  // The same from values and normals.
+  HWY_NOINLINE void shade(std::size_t first, std::size_t length) {
+    const ShadeSource& s = *job_.source;
+    if (length < kStep) return shade_some(first, length);
+    for (std::size_t w = 0; w < kStep; w += V::size) {
+      const std::size_t texel = first + w;
+      const Facts facts = facts_at(s.normals + texel, s.albedo + texel, job_.stride);
+      for (std::size_t l = 0; l < job_.lights; ++l) {
+        shade_light(l, w, facts,
+                    {s.values + l * s.channels * job_.stride + texel,
+                     s.render == nullptr ? nullptr : s.render + 3 * l * job_.stride + texel,
+                     job_.weight == nullptr ? nullptr : job_.weight + l * job_.stride + texel, job_.stride});
+      }
+    }
+  }
+
+  HWY_NOINLINE void shade_some(std::size_t first, std::size_t length) {
+    const ShadeSource& s = *job_.source;
+    float normals[3 * kStep];
+    float albedo[3 * kStep];
+    float values[3 * kStep];
+    float render[3 * kStep];
+    float weight[kStep];
+    const auto copy = [&](const float* from, std::size_t rows, float* to) {
+      for (std::size_t row = 0; row < rows; ++row) {
+        for (std::size_t k = 0; k < kStep; ++k) {
+          to[row * kStep + k] = k < length ? from[row * job_.stride + first + k] : 0.0F;
+        }
+      }
+    };
+    copy(s.normals, 3, normals);
+    copy(s.albedo, 3, albedo);
+    for (std::size_t l = 0; l < job_.lights; ++l) {
+      copy(s.values + l * s.channels * job_.stride, s.channels, values);
+      if (s.render != nullptr) copy(s.render + 3 * l * job_.stride, 3, render);
+      if (job_.weight != nullptr) copy(job_.weight + l * job_.stride, 1, weight);
+      for (std::size_t w = 0; w < kStep; w += V::size) {
+        shade_light(l, w, facts_at(normals + w, albedo + w, kStep),
+                    {values + w, s.render == nullptr ? nullptr : render + w,
+                     job_.weight == nullptr ? nullptr : weight + w, kStep});
+      }
+    }
+  }
+
+  HWY_INLINE void shade_light(std::size_t l, std::size_t w, const Facts& f, const Planes& from) {
+    const ShadeSource& s = *job_.source;
+    const V facing = mixed(f.normal, s.direction + 3 * l);
+    const float* colour = s.colour + 3 * l;
+    const V shade = select(facing > V(0.0), facing, V(0.0));
+    const V reflected = mixed(f.albedo, colour);
+    const V modulation =
+        shade * (s.albedo_in_modulation ? reflected : broadcast(colour[0] + colour[1] + colour[2]));
+    const V value = s.channels == 1 ? V::load(from.values) : luminance(from.values, from.stride);
+    const V render = from.render == nullptr ? shade * reflected : luminance(from.render, from.stride);
+    const V residual = s.is_residual ? value : value - render;
+    const auto finite = abs(residual) + modulation < V(kLargest);
+    const V weight = from.weight == nullptr ? V(1.0) : V::load(from.weight);
+    const V root = select(finite, sqrt(weight), V(0.0));
+    (root * select(finite, residual, V(0.0))).store(&residual_[l * kStep + w]);
+    (root * select(finite, modulation, V(0.0))).store(&modulation_[l * kStep + w]);
+  }
+
+  HWY_INLINE V mixed(const V (&x)[3], const float* shares) const {
+    return multiply_add(x[0], broadcast(shares[0]),
+                        multiply_add(x[1], broadcast(shares[1]), x[2] * broadcast(shares[2])));
+  }
+
+  HWY_INLINE V luminance(const float* from, std::size_t stride) const {
+    const V x[3] = {V::load(from), V::load(from + stride), V::load(from + 2 * stride)};
+    return mixed(x, job_.source->mix);
   }
 
   // Sums over lights of kCount columns of coefficients times what `value` gives.
@@ -227,6 +326,108 @@ class TexelSolver {
     leave();
   }
 
+  // Amplitudes as codes. What rounding one of them adds moves the best values of those that are not rounded
+  // yet by their covariance with it. From the last lobe on.
+  HWY_NOINLINE void round(std::size_t at, std::size_t length) {
+    const RoundJob& job = *job_.round;
+    for (int w = 0; w < kWide; ++w) {
+      V follow[n];
+      covariances(w, follow);
+      condition(follow);
+      V goal[P];
+      for (int k = 0; k < job_.lobes; ++k) goal[k] = amplitude(k, w);
+      if (job.noise != nullptr) add_dither(follow, at, length, w, goal);
+      for (int k = job_.lobes - 1; k >= 0; --k) {
+        const V zero = broadcast(job.zeros[k]);
+        const V whole = nearest(goal[k] * broadcast(1.0F / job.steps[k])) + zero;
+        const V above = select(whole > V(0.0), whole, V(0.0));
+        const V stored = select(above < broadcast(job.top), above, broadcast(job.top));
+        codes_[k].part[w] = stored;
+        move_rest(follow, k, (stored - zero) * broadcast(job.steps[k]), goal);
+      }
+    }
+  }
+
+  // What noise over the steps leaves when the codes next to it are taken off is spread evenly over the
+  // amplitudes of like codes.
+  HWY_INLINE void add_dither(const V* follow, std::size_t at, std::size_t length, int w, V* goal) const {
+    V spread[P];
+    V rest[P];
+    for (int k = 0; k < job_.lobes; ++k) {
+      spread[k] = noise(k, at, length, w) * broadcast(job_.round->steps[k]);
+      rest[k] = spread[k];
+    }
+    for (int k = job_.lobes - 1; k >= 0; --k) {
+      const V step = broadcast(job_.round->steps[k]);
+      const V taken = nearest(rest[k] * broadcast(1.0F / job_.round->steps[k])) * step;
+      move_rest(follow, k, taken, rest);
+      goal[k] = multiply_add(broadcast(job_.round->dither), spread[k] - taken, goal[k]);
+    }
+  }
+
+  // Lobe k has become `to`: the best values of those before it follow.
+  HWY_INLINE void move_rest(const V* follow, int k, V to, V* goal) const {
+    const V moved = to - goal[k];
+    for (int j = 0; j < k; ++j) goal[j] = multiply_add(follow[entry(k, j)], moved, goal[j]);
+  }
+
+  // Covariances become, per lobe, by how much those before it follow it, all after it being known.
+  HWY_INLINE void condition(V* covariance) const {
+    for (int k = job_.lobes - 1; k > 0; --k) {
+      const V variance = covariance[entry(k, k)];
+      const auto known = variance > V(kTiny);
+      const V share = select(known, V(1.0) / select(known, variance, V(1.0)), V(0.0));
+      for (int j = 0; j < k; ++j) {
+        const V row = covariance[entry(k, j)] * share;
+        for (int i = j; i < k; ++i) {
+          covariance[entry(i, j)] = covariance[entry(i, j)] - covariance[entry(k, i)] * row;
+        }
+      }
+      for (int j = 0; j < k; ++j) covariance[entry(k, j)] = covariance[entry(k, j)] * share;
+    }
+  }
+
+  // Of lobes: mixes times the inverse times mixes turned over.
+  HWY_INLINE void covariances(int w, V* covariance) const {
+    for (int k = 0; k < job_.lobes; ++k) {
+      V row[P];
+      for (int i = 0; i < P; ++i) {
+        V value(0.0);
+        for (int j = 0; j < P; ++j) {
+          const V a = gram_[i >= j ? entry(i, j) : entry(j, i)].part[w];
+          value = multiply_add(broadcast(job_.mixes[k * P + j]), a, value);
+        }
+        row[i] = value;
+      }
+      for (int j = 0; j <= k; ++j) {
+        V value(0.0);
+        for (int i = 0; i < P; ++i) value = multiply_add(broadcast(job_.mixes[j * P + i]), row[i], value);
+        covariance[entry(k, j)] = value;
+      }
+    }
+  }
+
+  HWY_INLINE V amplitude(int lobe, int w) const {
+    V sum(0.0);
+    for (int i = 0; i < P; ++i) {
+      sum = multiply_add(broadcast(job_.mixes[lobe * P + i]), unknowns_[i].part[w], sum);
+    }
+    return sum;
+  }
+
+  HWY_INLINE V noise(int lobe, std::size_t at, std::size_t length, int w) const {
+    const float* from = job_.round->noise + static_cast<std::size_t>(lobe) * job_.count + at;
+    const std::size_t first = static_cast<std::size_t>(w) * V::size;
+    if (first + V::size <= length) return V::load(from + first);
+    alignas(64) float some[V::size] = {};
+    for (std::size_t k = first; k < length; ++k) some[k - first] = from[k];
+    return V::load(some);
+  }
+
+  HWY_INLINE V nearest(V x) const {
+    return V::of(hn::Floor((x + V(0.5)).v));
+  }
+
   HWY_NOINLINE void errors() {
     for (int w = 0; w < kWide; ++w) {
       V sum(0.0);
@@ -306,13 +507,17 @@ class TexelSolver {
     put(job_.confidence);
     for (int k = 0; k < job_.lobes; ++k) {
       for (int w = 0; w < kWide; ++w) {
-        V sum(0.0);
-        for (int i = 0; i < P; ++i) {
-          sum = multiply_add(broadcast(job_.mixes[k * P + i]), unknowns_[i].part[w], sum);
-        }
-        (sum * keep[w]).store(values + static_cast<std::size_t>(w) * V::size);
+        (amplitude(k, w) * keep[w]).store(values + static_cast<std::size_t>(w) * V::size);
       }
       put(job_.amplitudes + static_cast<std::size_t>(k) * job_.stride);
+      if (job_.round == nullptr) continue;
+      const V zero = broadcast(job_.round->zeros[k]);
+      for (int w = 0; w < kWide; ++w) {
+        multiply_add(codes_[k].part[w] - zero, keep[w], zero)
+            .store(values + static_cast<std::size_t>(w) * V::size);
+      }
+      std::uint8_t* stored = job_.round->stored + static_cast<std::size_t>(k) * job_.stride + first;
+      for (std::size_t t = 0; t < length; ++t) stored[t] = static_cast<std::uint8_t>(values[t]);
     }
     for (int w = 0; w < kWide; ++w) with_.part[w].store(values + static_cast<std::size_t>(w) * V::size);
     put(job_.error_with);
@@ -328,6 +533,7 @@ class TexelSolver {
   Wide gram_[n];
   Wide right_[P];
   Wide unknowns_[P];
+  Wide codes_[P];
   Wide with_;
   Wide without_;
 };

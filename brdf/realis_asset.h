@@ -57,6 +57,9 @@ struct RealisAsset {
   bool albedo_in_modulation =
       false;  // whether the modulation is irradiance x cos_i x albedo, or without albedo
   LobeSet lobes;
+  // What held amplitudes back: the number on the diagonal of each texel's normal equations. Nothing: not
+  // known, as in files of earlier versions.
+  std::optional<double> penalty;
   // The material whose render is corrected, with each texel's albedo as its base colour; nothing: Lambert.
   std::optional<Material> base;
   Vec3 view{0.0, 0.0, 1.0};

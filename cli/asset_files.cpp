@@ -3,8 +3,13 @@
 
 #include <fmt/format.h>
 
+#include <tbb/task_group.h>
+
 #include <algorithm>
+#include <array>
+#include <bit>
 #include <cmath>
+#include <cstdint>
 #include <optional>
 #include <utility>
 
@@ -20,24 +25,61 @@ const std::vector<std::string> kSurfaceChannels = {"albedo.R", "albedo.G", "albe
                                                    "normal.X", "normal.Y", "normal.Z"};
 const std::vector<std::string> kChromaChannels = {"R", "G", "B"};
 
-std::uint8_t byte_of(double share) {
-  return static_cast<std::uint8_t>(std::lround(255.0 * std::clamp(share, 0.0, 1.0)));
+std::uint8_t byte_of(float share) {
+  return static_cast<std::uint8_t>(255.0F * std::clamp(share, 0.0F, 1.0F) + 0.5F);
 }
+
+// sRGB codes of floats, as io::srgb8_from_linear has them: a table of where codes begin, and one of guesses.
+class SrgbCodes {
+ public:
+  SrgbCodes() {
+    for (int code = 1; code < 256; ++code) begin_[static_cast<std::size_t>(code)] = beginning_of(code);
+    begin_[256] = 2.0F;
+    std::uint8_t code = 0;
+    for (std::size_t k = 0; k < kGuesses; ++k) {
+      const float value = static_cast<float>(k) / static_cast<float>(kGuesses - 1);
+      while (begin_[code + 1U] <= value) ++code;
+      guess_[k] = code;
+    }
+  }
+
+  std::uint8_t operator()(float linear) const {
+    const float value = std::clamp(linear, 0.0F, 1.0F);
+    std::uint8_t code = guess_[static_cast<std::size_t>(value * static_cast<float>(kGuesses - 1))];
+    while (begin_[code + 1U] <= value) ++code;
+    while (begin_[code] > value) --code;
+    return code;
+  }
+
+ private:
+  static constexpr std::size_t kGuesses = 4096;
+
+  // The least float of a code. Positive floats are ordered as their bits are.
+  static float beginning_of(int code) {
+    std::uint32_t low = 0;
+    std::uint32_t high = std::bit_cast<std::uint32_t>(1.0F);
+    while (low < high) {
+      const std::uint32_t middle = low + (high - low) / 2;
+      const bool reached = io::srgb8_from_linear(static_cast<double>(std::bit_cast<float>(middle))) >= code;
+      (reached ? high : low) = reached ? middle : middle + 1;
+    }
+    return std::bit_cast<float>(low);
+  }
+
+  std::array<float, 257> begin_{};
+  std::array<std::uint8_t, kGuesses> guess_{};
+};
 
 // [channel][texel] to interleaved bytes.
 template <class Encode>
-std::vector<std::uint8_t> interleaved(std::span<const float> planes, std::size_t channels, Encode&& encode) {
+std::vector<std::uint8_t> interleaved(std::span<const float> planes, std::size_t channels,
+                                      const Encode& encode) {
   const std::size_t count = planes.size() / channels;
   std::vector<std::uint8_t> bytes(planes.size());
   for (std::size_t c = 0; c < channels; ++c) {
-    for (std::size_t k = 0; k < count; ++k)
-      bytes[k * channels + c] = encode(static_cast<double>(planes[c * count + k]));
+    for (std::size_t k = 0; k < count; ++k) bytes[k * channels + c] = encode(planes[c * count + k]);
   }
   return bytes;
-}
-
-std::uint8_t srgb_byte(double linear) {
-  return static_cast<std::uint8_t>(io::srgb8_from_linear(std::clamp(linear, 0.0, 1.0)));
 }
 
 }  // namespace
@@ -83,6 +125,7 @@ std::vector<std::filesystem::path> asset_paths(const RealisAsset& asset,
 
 struct AssetWriter::State {
   RealisAsset asset;
+  SrgbCodes srgb;
   std::optional<io::ExrRowWriter> amplitudes;
   std::optional<io::ExrRowWriter> chroma;
   std::vector<std::unique_ptr<io::PngRowWriter>> packed;
@@ -93,7 +136,8 @@ struct AssetWriter::State {
   std::optional<io::PngRowWriter> confidence;
 };
 
-AssetWriter::AssetWriter(const RealisAsset& asset, const std::filesystem::path& folder, io::ExrDepth depth)
+AssetWriter::AssetWriter(const RealisAsset& asset, const std::filesystem::path& folder, io::ExrDepth depth,
+                         io::ExrCompression compression)
     : state_(std::make_unique<State>()) {
   State& s = *state_;
   s.asset = asset;
@@ -101,16 +145,19 @@ AssetWriter::AssetWriter(const RealisAsset& asset, const std::filesystem::path& 
   const int width = asset.width;
   const int height = asset.height;
   if (!files.amplitudes.empty()) {
-    s.amplitudes.emplace(folder / files.amplitudes, width, height, realis_channel_names(asset), depth);
+    s.amplitudes.emplace(folder / files.amplitudes, width, height, realis_channel_names(asset), depth,
+                         io::ImageMetadata(), compression);
   }
   if (!files.chroma.empty())
-    s.chroma.emplace(folder / files.chroma, width, height, kChromaChannels, io::ExrDepth::kHalf);
+    s.chroma.emplace(folder / files.chroma, width, height, kChromaChannels, io::ExrDepth::kHalf,
+                     io::ImageMetadata(), compression);
   for (const std::string& name : files.packed) {
     s.packed.push_back(std::make_unique<io::PngRowWriter>(folder / name, width, height, 4));
   }
   if (!files.dominant.empty())
     s.dominant.emplace(folder / files.dominant, width, height, layout_of(asset).mask_channels());
-  s.surface.emplace(folder / files.surface, width, height, kSurfaceChannels, io::ExrDepth::kFloat);
+  s.surface.emplace(folder / files.surface, width, height, kSurfaceChannels, io::ExrDepth::kFloat,
+                    io::ImageMetadata(), compression);
   s.albedo.emplace(folder / files.albedo, width, height, 3);
   s.normals.emplace(folder / files.normals, width, height, 3);
   s.confidence.emplace(folder / files.confidence, width, height, 1);
@@ -120,20 +167,26 @@ AssetWriter::~AssetWriter() = default;
 
 void AssetWriter::write(const AssetRows& rows, int count) {
   State& s = *state_;
-  if (s.amplitudes) s.amplitudes->write(rows.amplitudes, count);
-  if (s.chroma) s.chroma->write(rows.chroma, count);
-  if (!s.packed.empty()) {
-    const bake::PackedTexels packed = bake::pack(layout_of(s.asset), rows.codes, rows.masks);
-    for (std::size_t k = 0; k < s.packed.size(); ++k) s.packed[k]->write(packed.textures[k], count);
-    if (s.dominant) s.dominant->write(packed.mask, count);
+  const bake::Surface& surface = rows.surface;
+  tbb::task_group files;
+  if (s.amplitudes) files.run([&] { s.amplitudes->write(rows.amplitudes, count); });
+  if (s.chroma) files.run([&] { s.chroma->write(rows.chroma, count); });
+  for (std::size_t k = 0; k < s.packed.size(); ++k) {
+    files.run([&, k] { s.packed[k]->write(rows.packed.textures[k], count); });
   }
-  std::vector<float> surface = rows.surface.albedo;
-  surface.insert(surface.end(), rows.surface.normals.begin(), rows.surface.normals.end());
-  s.surface->write(surface, count);
-  s.albedo->write(interleaved(rows.surface.albedo, 3, srgb_byte), count);
-  s.normals->write(interleaved(rows.surface.normals, 3, [](double n) { return byte_of(0.5 * n + 0.5); }),
-                   count);
-  s.confidence->write(interleaved(rows.confidence, 1, byte_of), count);
+  if (s.dominant) files.run([&] { s.dominant->write(rows.packed.mask, count); });
+  files.run([&] {
+    std::vector<float> planes = surface.albedo;
+    planes.insert(planes.end(), surface.normals.begin(), surface.normals.end());
+    s.surface->write(planes, count);
+  });
+  files.run([&] { s.albedo->write(interleaved(surface.albedo, 3, s.srgb), count); });
+  files.run([&] {
+    const auto code = [](float n) { return byte_of(0.5F * n + 0.5F); };
+    s.normals->write(interleaved(surface.normals, 3, code), count);
+  });
+  files.run([&] { s.confidence->write(interleaved(rows.confidence, 1, byte_of), count); });
+  files.wait();
 }
 
 void AssetWriter::commit() {

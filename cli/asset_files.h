@@ -17,8 +17,7 @@ namespace brdfit::cli {
 // One run of rows of an asset. Planes are [plane][texel].
 struct AssetRows {
   std::vector<float> amplitudes;
-  std::vector<int> codes;
-  std::vector<std::uint32_t> masks;
+  bake::PackedTexels packed;
   std::vector<float> chroma;
   bake::Surface surface;
   std::vector<float> confidence;  // in [0, 1]
@@ -32,10 +31,11 @@ std::vector<std::filesystem::path> asset_paths(const RealisAsset& asset, const s
 
 bake::PackLayout layout_of(const RealisAsset& asset);
 
-// Writes all textures from top to bottom; they appear under their names at commit().
+// Writes all textures from top to bottom, each file by one thread; they appear under their names at commit().
 class AssetWriter {
  public:
-  AssetWriter(const RealisAsset& asset, const std::filesystem::path& folder, io::ExrDepth depth);
+  AssetWriter(const RealisAsset& asset, const std::filesystem::path& folder, io::ExrDepth depth,
+              io::ExrCompression compression);
   ~AssetWriter();
   void write(const AssetRows& rows, int count);
   void commit();

@@ -1,10 +1,14 @@
 // brdfit bake: Realis textures from a light stack.
 #include <fmt/format.h>
+#include <malloc.h>
 
 #include <algorithm>
-#include <map>
+#include <filesystem>
+#include <functional>
 #include <optional>
+#include <span>
 
+#include "bake/bake_rows.h"
 #include "bake/capture_warnings.h"
 #include "bake/compress_block.h"
 #include "cli/asset_files.h"
@@ -12,6 +16,7 @@
 #include "cli/bake_options.h"
 #include "cli/bake_pictures.h"
 #include "cli/bake_stack.h"
+#include "cli/bake_timings.h"
 #include "cli/progress.h"
 #include "cli/threads.h"
 #include "cli/version.h"
@@ -20,6 +25,22 @@
 
 namespace brdfit::cli {
 namespace {
+
+// Strips, with all that is made of them, take this share of --memory.
+constexpr double kStripShare = 0.5;
+// JPEG is decoded by so many rows.
+constexpr int kRowGroup = 16;
+// Bytes per texel of a strip's surface, amplitudes, codes, and what the files are given of them.
+constexpr std::size_t kTexelBytes = 200;
+// Codes at the ends of their range; where ranges are of the asset itself they are few.
+constexpr double kManyCutCodes = 0.05;
+
+// Each strip needs the memory of the one before: given back to the system and asked for again, its pages cost
+// more than the work on them.
+void keep_freed_pages() {
+  mallopt(M_MMAP_THRESHOLD, 1 << 30);
+  mallopt(M_TRIM_THRESHOLD, 1 << 30);
+}
 
 // Texels spread evenly over the picture: all of them where there are few.
 std::vector<std::uint32_t> sample_of(const StackInfo& info, std::size_t count) {
@@ -35,7 +56,12 @@ std::vector<std::uint32_t> sample_of(const StackInfo& info, std::size_t count) {
 class Bake {
  public:
   Bake(const BakeArguments& a, std::string command_line)
-      : a_(a), settings_(bake_settings_of(a)), command_line_(std::move(command_line)), stack_(a) {
+      : a_(a),
+        settings_(bake_settings_of(a)),
+        ranges_(given_ranges(a, settings_)),
+        command_line_(std::move(command_line)),
+        needs_sample_(!a.no_evidence || !a.panels.empty() || ranges_.empty() || !bake::is_decided(settings_)),
+        stack_(a, needs_sample_) {
     asset_.name = a.name.empty() ? stack_.info().name : a.name;
     json_file_ = std::filesystem::path(a.output) / (asset_.name + ".realis.json");
     prepare_output(json_file_, a.common.force);
@@ -44,10 +70,14 @@ class Bake {
   }
 
   int run() {
+    if (a_.timings) timings_.measure_decoding(stack_.source());
+    const BothClocks all;
     decide();
     if (!a_.no_evidence) weigh();
     if (pictures_) prepare_pictures();
     write();
+    timings_.set_total(all.taken());
+    if (a_.timings) timings_.measure_decoding(stack_.source());
     finish();
     return kDone;
   }
@@ -56,13 +86,18 @@ class Bake {
   void decide() {
     say(a_.common, fmt::format("{}: {} lights, {} x {} texels", asset_.name, stack_.info().lights.size(),
                                stack_.info().width, stack_.info().height));
-    Stopwatch reading;
-    sample_ = stack_.read_texels(sample_of(stack_.info(), static_cast<std::size_t>(a_.sample_texels)));
-    seconds_["decode_sample"] = reading.seconds();
-    plan_ = bake::plan_bake(stack_.info(), sample_, bake::all_lights(stack_.info()), settings_);
+    if (!needs_sample_) {
+      plan_ = bake::decided_plan(stack_.info(), settings_);
+      return;
+    }
+    const std::vector<std::uint32_t> texels =
+        sample_of(stack_.info(), static_cast<std::size_t>(a_.sample_texels));
+    sample_ = timings_.timed("decode sample", [&] { return stack_.read_texels(texels); });
+    plan_ = timings_.timed("plan", [&] {
+      return bake::plan_bake(stack_.info(), sample_, bake::all_lights(stack_.info()),
+                             a_.no_evidence ? settings_ : bake::with_compared_lobes(settings_, {}));
+    });
     warn_of_capture();
-    seconds_["plan_base"] = plan_.timings.base_seconds;
-    seconds_["plan_lobes"] = plan_.timings.lobes_seconds;
   }
 
   // What is wrong with the capture comes first: it may explain the rest.
@@ -72,7 +107,6 @@ class Bake {
   }
 
   void weigh() {
-    Stopwatch watch;
     bake::EvidenceOptions options;
     options.folds = a_.folds;
     options.dither = !a_.no_dither;
@@ -85,14 +119,12 @@ class Bake {
     if (pictures_) {
       options.on_fold = [&](int fold, bake::FoldPlans plans) { pictures_->keep(fold, std::move(plans)); };
     }
-    evidence_ = bake::evaluate(stack_.info(), sample_, plan_, settings_, options);
-    seconds_["evidence"] = watch.seconds();
+    evidence_ = timings_.timed(
+        "evidence", [&] { return bake::evaluate(stack_.info(), sample_, plan_, settings_, options); });
   }
 
   void prepare_pictures() {
-    Stopwatch watch;
-    pictures_->prepare(sample_, a_.no_evidence ? nullptr : &evidence_);
-    seconds_["pictures"] = watch.seconds();
+    timings_.timed("pictures", [&] { pictures_->prepare(sample_, a_.no_evidence ? nullptr : &evidence_); });
   }
 
   void describe_asset() {
@@ -104,7 +136,10 @@ class Bake {
     asset_.base = plan_.base.material;
     asset_.view = info.view;
     asset_.fade = {a_.fade_albedo, a_.fade_normal_deg};
-    if (plan_.system) asset_.lobes = plan_.system->lobes();
+    if (plan_.system) {
+      asset_.lobes = plan_.system->lobes();
+      asset_.penalty = plan_.system->penalty();
+    }
     asset_.packing.bits = a_.bits;
     asset_.packing.dominant = dominant_of(a_, static_cast<int>(asset_.lobes.size()));
     asset_.packing.ranges = ranges();
@@ -131,6 +166,7 @@ class Bake {
   std::vector<RealisRange> ranges() const {
     std::vector<RealisRange> planes(asset_.plane_count());
     if (!plan_.system) return planes;
+    if (!ranges_.empty()) return ranges_;
     const bake::BakedBlock baked = bake::bake_block(stack_.info(), sample_, plan_, settings_);
     const std::size_t channels = baked.solved.size();
     for (std::size_t c = 0; c < channels; ++c) {
@@ -141,9 +177,19 @@ class Bake {
     return planes;
   }
 
-  AssetRows rows_of(const TexelBlock& block) const {
-    bake::BakedBlock baked = bake::bake_block(stack_.info(), block, plan_, settings_);
+  AssetRows rows_of(const TexelBlock& block) {
     AssetRows rows;
+    if (short_way_) {
+      bake::BakedRows baked =
+          bake::bake_rows(stack_.info(), block, plan_, settings_, asset_.packing, !a_.no_dither);
+      cut_codes_ += bake::cut_codes(baked);
+      rows.packed = bake::pack_all(layout_of(asset_), baked.stored);
+      rows.amplitudes = std::move(baked.solved.amplitudes);
+      rows.confidence = std::move(baked.solved.confidence);
+      rows.surface = std::move(baked.surface);
+      return rows;
+    }
+    bake::BakedBlock baked = bake::bake_block(stack_.info(), block, plan_, settings_);
     rows.confidence.assign(block.count(), 0.0F);
     if (plan_.system) compress(baked, block, rows);
     rows.chroma = std::move(baked.chroma);
@@ -155,8 +201,8 @@ class Bake {
     const std::size_t lobes = asset_.lobes.size();
     const std::size_t channels = baked.solved.size();
     std::vector<std::vector<float>> amplitudes;
-    rows.codes.assign(asset_.plane_count() * block.count(), 0);
-    rows.masks.assign(block.count(), 0);
+    std::vector<int> codes(asset_.plane_count() * block.count(), 0);
+    std::vector<std::uint32_t> masks(block.count(), 0);
     for (std::size_t c = 0; c < channels; ++c) {
       const bake::SolveResult& solved = baked.solved[c];
       std::vector<RealisRange> ranges;
@@ -168,59 +214,77 @@ class Bake {
                                asset_.width, ranges, compress_options());
       for (std::size_t lobe = 0; lobe < lobes; ++lobe) {
         std::copy_n(small.codes.begin() + static_cast<std::ptrdiff_t>(lobe * block.count()), block.count(),
-                    rows.codes.begin() + static_cast<std::ptrdiff_t>((lobe * channels + c) * block.count()));
+                    codes.begin() + static_cast<std::ptrdiff_t>((lobe * channels + c) * block.count()));
       }
       for (std::size_t k = 0; k < block.count(); ++k) {
-        rows.masks[k] |= small.masks[k];
+        masks[k] |= small.masks[k];
         rows.confidence[k] = std::max(rows.confidence[k], solved.confidence[k]);
       }
       amplitudes.push_back(solved.amplitudes);
     }
+    rows.packed = bake::pack(layout_of(asset_), codes, masks);
     rows.amplitudes = planes_of(amplitudes, lobes, block.count());
+  }
+
+  // Rows of a strip whose pixels, and what is made of them, fit into memory.
+  int strip_rows(bool luminance) const {
+    const StackInfo& info = stack_.info();
+    // Per light: values, weight; and a render, or (the long way) render, residual, modulation and a copy.
+    const std::size_t planes = luminance ? 2 : short_way_ ? (plan_.base.material ? 7 : 4) : 14;
+    const std::size_t texel = planes * sizeof(float) * info.lights.size() + kTexelBytes;
+    const double bytes = kStripShare * static_cast<double>(static_cast<std::size_t>(a_.memory_mib) << 20);
+    const int rows =
+        static_cast<int>(bytes / static_cast<double>(texel * static_cast<std::size_t>(info.width)));
+    return std::clamp(rows > kRowGroup ? rows / kRowGroup * kRowGroup : rows, 1, info.height);
   }
 
   void write() {
     describe_asset();
     for (const std::filesystem::path& file : asset_paths(asset_, a_.output))
       prepare_output(file, a_.common.force);
-    AssetWriter writer(asset_, a_.output, a_.half ? io::ExrDepth::kHalf : io::ExrDepth::kFloat);
-    const int strip = std::max(1, stack_.strip_rows());
+    AssetWriter writer(asset_, a_.output, a_.half ? io::ExrDepth::kHalf : io::ExrDepth::kFloat,
+                       a_.zip ? io::ExrCompression::kZip : io::ExrCompression::kNone);
+    short_way_ = bake::has_short_way(stack_.info(), plan_, settings_, asset_.packing);
+    const bool luminance = short_way_ && !pictures_ && bake::needs_luminance_alone(stack_.info(), plan_);
+    const int strip = strip_rows(luminance);
     const int height = stack_.info().height;
     Progress progress(static_cast<std::size_t>((height + strip - 1) / strip),
                       a_.common.quiet || a_.common.json);
-    double decoding = 0.0;
-    double solving = 0.0;
-    double drawing = 0.0;
-    Stopwatch all;
     for (int row = 0; row < height; row += strip) {
       if (interrupted()) throw std::runtime_error("interrupted; nothing is written");
       const int rows = std::min(strip, height - row);
-      Stopwatch watch;
-      TexelBlock block = stack_.read_rows(row, rows);
-      decoding += watch.seconds();
-      watch = Stopwatch();
-      const AssetRows out = rows_of(block);
-      solving += watch.seconds();
-      watch = Stopwatch();
-      if (pictures_) pictures_->add(block);
-      drawing += watch.seconds();
+      TexelBlock block = timings_.timed("decode", [&] {
+        return luminance ? stack_.read_luminance(row, rows) : stack_.read_rows(row, rows);
+      });
+      const AssetRows out = timings_.timed("solve", [&] { return rows_of(block); });
+      if (pictures_) timings_.timed("pictures", [&] { pictures_->add(block); });
       stack_.give_back(std::move(block));
-      writer.write(out, rows);
+      timings_.timed("write", [&] { writer.write(out, rows); });
       progress.step("rows");
     }
-    writer.commit();
+    timings_.timed("write", [&] { writer.commit(); });
     cut_values_ = writer.cut_values();
-    seconds_["decode"] = decoding;
-    seconds_["solve"] = solving;
-    seconds_["write"] = all.seconds() - decoding - solving - drawing;
-    if (!pictures_) return;
-    Stopwatch watch;
-    pictures_->finish(stack_, strip, stop_if_interrupted);
-    seconds_["pictures"] += drawing + watch.seconds();
+    warn_of_cut_codes();
+    if (pictures_) {
+      timings_.timed("pictures", [&] { pictures_->finish(stack_, strip, stop_if_interrupted); });
+    }
   }
 
   static void stop_if_interrupted() {
     if (interrupted()) throw std::runtime_error("interrupted; textures are written, not all pictures are");
+  }
+
+  // Ranges of another asset may be too small for this one.
+  void warn_of_cut_codes() {
+    const double share =
+        static_cast<double>(cut_codes_) /
+        static_cast<double>(std::max<std::size_t>(asset_.plane_count(), 1) * asset_.texel_count());
+    if (ranges_.empty() || share < kManyCutCodes) return;
+    plan_.warnings.push_back(
+        {"ranges-too-small",
+         fmt::format("{:.1f}% of the codes are at the end of the range that came with the lobe "
+                     "set: --lobes-only finds ranges for this stack",
+                     100.0 * share)});
   }
 
   void finish() {
@@ -230,7 +294,7 @@ class Bake {
     bake["input"] = {{"file", std::filesystem::path(a_.stack).filename().string()},
                      {"sha256", io::sha256_of_file(a_.stack)}};
     bake["seed"] = a_.seed;
-    bake["sample_texels"] = sample_.count();
+    if (needs_sample_) bake["sample_texels"] = sample_.count();
     bake["plan"] = plan_json(plan_, stack_.info());
     const io::PixelCounts& counts = stack_.counts();
     bake["pixels"] = {{"saturated", counts.saturated}, {"non_finite", counts.non_finite}};
@@ -241,7 +305,8 @@ class Bake {
       bake["evidence"] = evidence_json(evidence_);
     }
     if (pictures_) bake["pictures"] = pictures_->json();
-    bake["timings_seconds"] = seconds_;
+    bake["timings_seconds"] = timings_.seconds_json();
+    if (a_.timings) bake["timings"] = timings_.units_json();
     io::write_realis(json_file_, asset_, bake);
     if (a_.common.json) {
       bake["file"] = json_file_.string();
@@ -251,13 +316,16 @@ class Bake {
     } else if (!a_.common.quiet) {
       fmt::print("{}{}{}", stack_.weights_text(), plan_text(plan_, stack_.info()),
                  a_.no_evidence ? "" : evidence_text(evidence_, stack_.info()));
+      if (a_.timings) fmt::print("{}", timings_.text());
       fmt::print("{}: {:.1f} bytes per texel at run time\n", json_file_.string(), asset_.bytes_per_texel());
     }
   }
 
   const BakeArguments& a_;
   bake::BakeSettings settings_;
+  std::vector<RealisRange> ranges_;  // that came with the lobes
   std::string command_line_;
+  bool needs_sample_;
   BakeStack stack_;
   RealisAsset asset_;
   std::filesystem::path json_file_;
@@ -265,8 +333,10 @@ class Bake {
   bake::BakePlan plan_;
   bake::Evidence evidence_;
   std::optional<BakePictures> pictures_;
+  bool short_way_ = false;
   std::size_t cut_values_ = 0;
-  std::map<std::string, double> seconds_;
+  std::size_t cut_codes_ = 0;
+  BakeTimings timings_;
 };
 
 }  // namespace
@@ -282,6 +352,7 @@ Command add_bake_command(CLI::App& program) {
   add_bake_options(*app, *a);
   return {app, [a](const std::string& command_line) {
             const ThreadLimit threads(a->common.threads);
+            keep_freed_pages();
             return Bake(*a, command_line).run();
           }};
 }

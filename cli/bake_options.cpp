@@ -34,8 +34,12 @@ void add_bake_options(CLI::App& app, BakeArguments& a) {
   app.add_option("--lobes", a.lobes, "how many, or auto: by held-out error")
       ->capture_default_str()
       ->take_last();
-  app.add_option("--lobe-set", a.lobe_set, "lobes of another asset (NAME.realis.json), as they are")
+  app.add_option("--lobe-set", a.lobe_set,
+                 "lobes, ridge and ranges of codes of another asset (NAME.realis.json), as they are")
       ->take_last();
+  app.add_flag(
+      "--lobes-only", a.lobes_only,
+      "of the lobe set the lobes alone: ridge and ranges of codes are found on a sample of this stack");
   app.add_flag("--uniform", a.uniform, "lobes spread evenly over the lights, not optimised");
   app.add_option("--colour", a.colour, "what amplitudes hold")
       ->check(CLI::IsMember({"luminance", "scaled-chroma", "rgb"}))
@@ -84,7 +88,11 @@ void add_bake_options(CLI::App& app, BakeArguments& a) {
       ->check(CLI::Range(16, 1 << 20))
       ->capture_default_str()
       ->take_last();
-  app.add_flag("--spill", a.spill, "keep decoded pixels in a temporary file between the passes");
+  app.add_option("--spill", a.spill,
+                 "keep decoded pixels in a temporary file between the passes; auto: where that is faster")
+      ->check(CLI::IsMember({"auto", "on", "off"}))
+      ->capture_default_str()
+      ->take_last();
   app.add_option(
          "--noise", a.noise,
          "READ,SHOT: a sensor value v has the variance READ^2 + SHOT v, and counts by its inverse; in "
@@ -95,6 +103,9 @@ void add_bake_options(CLI::App& app, BakeArguments& a) {
       "--contours", a.contours,
       "texels between the shadow contours of a photograph and of its render count less; costs a pass "
       "over the pictures and a temporary file");
+  app.add_flag("--zip", a.zip, "compress EXR files, which takes longer than the bake and saves little");
+  app.add_flag("--timings", a.timings,
+               "print the time of each phase in units of decoding alone, and peak memory");
   app.add_option("--fade-albedo", a.fade_albedo, "distance in linear albedo at which the correction is gone")
       ->check(CLI::PositiveNumber)
       ->capture_default_str()
@@ -119,15 +130,26 @@ bake::BakeSettings bake_settings_of(const BakeArguments& a) {
   settings.albedo_in_modulation = a.albedo_in_modulation;
   settings.seed = a.seed;
   if (!a.lobe_set.empty()) {
-    settings.given_lobes = io::read_realis(a.lobe_set).lobes;
-    settings.lobes = static_cast<int>(settings.given_lobes->size());
+    const RealisAsset set = io::read_realis(a.lobe_set);
+    settings.given_lobes = set.lobes;
+    settings.lobes = static_cast<int>(set.lobes.size());
+    if (!a.lobes_only && set.penalty && *set.penalty > 0.0) settings.given_penalty = set.penalty;
     return settings;
   }
+  if (a.lobes_only) throw UsageError("--lobes-only says what to take of a --lobe-set");
   const std::optional<int> count = a.lobes == "auto" ? 0 : whole_number(a.lobes, 1, bake::kMaxLobes);
   if (!count)
     throw UsageError(fmt::format("--lobes {} is neither auto nor in [1, {}]", a.lobes, bake::kMaxLobes));
   settings.lobes = *count;
   return settings;
+}
+
+std::vector<RealisRange> given_ranges(const BakeArguments& a, const bake::BakeSettings& settings) {
+  if (!settings.given_penalty) return {};
+  const RealisAsset set = io::read_realis(a.lobe_set);
+  const bool is_rgb = settings.colour == RealisColour::kRgb;
+  const bool fits = is_rgb == (set.colour == RealisColour::kRgb) && set.packing.bits == a.bits;
+  return fits ? set.packing.ranges : std::vector<RealisRange>();
 }
 
 int dominant_of(const BakeArguments& a, int lobes) {

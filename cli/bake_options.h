@@ -20,6 +20,7 @@ struct BakeArguments {
   std::string transfer;
   std::string lobes = "8";
   std::string lobe_set;
+  bool lobes_only = false;
   bool uniform = false;
   std::string colour = "luminance";
   std::string base = "auto";
@@ -34,11 +35,13 @@ struct BakeArguments {
   int folds = 0;
   std::vector<std::string> panels;  // empty: worst, median and best, where there is evidence
   bool no_panels = false;
-  int sample_texels = 16384;
+  int sample_texels = 8192;
   int memory_mib = 256;
-  bool spill = false;
+  std::string spill = "auto";
   std::vector<double> noise;  // read deviation and shot; empty: what the stack says
   bool contours = false;
+  bool zip = false;
+  bool timings = false;
   double fade_albedo = RealisFade{}.albedo_range;
   double fade_normal_deg = RealisFade{}.normal_range_deg;
   std::uint64_t seed = 1;
@@ -48,6 +51,9 @@ void add_bake_options(CLI::App& app, BakeArguments& a);
 
 // Throw UsageError, or IoError for a lobe set that cannot be read.
 bake::BakeSettings bake_settings_of(const BakeArguments& a);
+
+// The ranges of codes that come with a lobe set, where they fit: [lobe] or [lobe][channel]; empty otherwise.
+std::vector<RealisRange> given_ranges(const BakeArguments& a, const bake::BakeSettings& settings);
 int dominant_of(const BakeArguments& a, int lobes);
 
 }  // namespace brdfit::cli

@@ -4,9 +4,11 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 #include <vector>
 
 #include "cli/progress.h"
+#include "io/decode_floor.h"
 
 namespace brdfit::cli {
 namespace {
@@ -18,7 +20,7 @@ std::size_t memory_bytes(const BakeArguments& a) {
   return static_cast<std::size_t>(a.memory_mib) << 20;
 }
 
-io::FileStack open_files(const BakeArguments& a) {
+io::FileStack open_files(const BakeArguments& a, bool several_passes) {
   io::FileStackOptions options;
   if (!a.transfer.empty()) {
     options.transfer = io::transfer_from(a.transfer);
@@ -26,8 +28,9 @@ io::FileStack open_files(const BakeArguments& a) {
       throw UsageError(fmt::format("--transfer {} is not {}", a.transfer, io::kTransferNames));
   }
   options.memory_bytes = memory_bytes(a) / kMemoryPerPixelMemory;
-  options.spill = a.spill;
-  return io::FileStack(io::read_stack_source(a.stack), options);
+  io::StackSource source = io::read_stack_source(a.stack);
+  options.spill = a.spill == "on" || (a.spill == "auto" && several_passes && io::pays_to_spill(source));
+  return io::FileStack(std::move(source), options);
 }
 
 std::optional<bake::SensorNoise> noise_of(const BakeArguments& a, const io::StackSource& source) {
@@ -48,7 +51,8 @@ std::optional<bake::SensorNoise> noise_of(const BakeArguments& a, const io::Stac
 
 }  // namespace
 
-BakeStack::BakeStack(const BakeArguments& a) : files_(open_files(a)), weighted_(files_) {
+BakeStack::BakeStack(const BakeArguments& a, bool several_passes)
+    : files_(open_files(a, several_passes || a.contours)), weighted_(files_) {
   weigh_by_noise(a);
   if (a.contours) weigh_by_contours(a);
 }

@@ -17,9 +17,9 @@ namespace brdfit::cli {
 
 class BakeStack : public ImageStack {
  public:
-  // Opens the files, and with --contours reads them once. Throws UsageError, io::IoError, and
-  // std::runtime_error when interrupted.
-  explicit BakeStack(const BakeArguments& a);
+  // Opens the files, and with --contours reads them once. several_passes: whether they will be read more than
+  // once, for --spill auto. Throws UsageError, io::IoError, and std::runtime_error when interrupted.
+  BakeStack(const BakeArguments& a, bool several_passes);
 
   const StackInfo& info() const override { return files_.info(); }
   TexelBlock read_rows(int first_row, int rows) override { return weighted_.read_rows(first_row, rows); }
@@ -32,6 +32,7 @@ class BakeStack : public ImageStack {
   void give_back(TexelBlock block) override { weighted_.give_back(std::move(block)); }
 
   int strip_rows() const { return files_.strip_rows(); }
+  const io::StackSource& source() const { return files_.source(); }
   const io::PixelCounts& counts() const { return files_.counts(); }
 
   // What weights there are, for the asset's description; null where there are none.

@@ -51,9 +51,9 @@ void check(int width, int height, const std::vector<std::string>& channels) {
 }
 
 Imf::Header header_of(int width, int height, const std::vector<std::string>& channels, ExrDepth depth,
-                      const ImageMetadata& metadata) {
+                      const ImageMetadata& metadata, ExrCompression compression) {
   Imf::Header header(width, height);
-  header.compression() = Imf::ZIP_COMPRESSION;
+  header.compression() = compression == ExrCompression::kZip ? Imf::ZIP_COMPRESSION : Imf::NO_COMPRESSION;
   for (const std::string& name : channels) {
     header.channels().insert(name, Imf::Channel(depth == ExrDepth::kHalf ? Imf::HALF : Imf::FLOAT));
   }
@@ -100,9 +100,10 @@ struct ExrRowWriter::State {
 };
 
 ExrRowWriter::ExrRowWriter(const std::filesystem::path& file, int width, int height,
-                           std::vector<std::string> channels, ExrDepth depth, const ImageMetadata& metadata) {
+                           std::vector<std::string> channels, ExrDepth depth, const ImageMetadata& metadata,
+                           ExrCompression compression) {
   check(width, height, channels);
-  state_ = std::make_unique<State>(file, header_of(width, height, channels, depth, metadata));
+  state_ = std::make_unique<State>(file, header_of(width, height, channels, depth, metadata, compression));
   state_->channels = std::move(channels);
   state_->depth = depth;
   state_->width = width;

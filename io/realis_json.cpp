@@ -135,6 +135,7 @@ Json realis_to_json(const RealisAsset& asset) {
   json["frame"] = kFrame;
   json["view"] = vector_to_json(asset.view);
   json["lobes"] = lobes_to_json(asset.lobes);
+  if (asset.penalty) json["penalty"] = *asset.penalty;
   json["base"] = asset.base ? material_to_json(*asset.base) : Json(kLambert);
   std::vector<double> steps;
   std::vector<int> zeros;
@@ -172,6 +173,9 @@ RealisAsset realis_from_json(const Json& json, const std::string& file) {
   }
   asset.view = read_vector(reader, "view");
   asset.lobes = read_lobes(reader, file);
+  if (reader.has("penalty")) {
+    asset.penalty = reader.number("penalty", 0.0, std::numeric_limits<double>::max());
+  }
   asset.base = read_base(reader, file);
   asset.packing = read_packing(reader.object("packing"));
   asset.fade = read_fade(reader.object("fade"));

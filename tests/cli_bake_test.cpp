@@ -104,6 +104,34 @@ TEST_F(CliBake, WhatIsWrittenFitsItsSchema) {
   }
 }
 
+TEST_F(CliBake, TakesLobesRidgeAndRangesOfAnotherAsset) {
+  synth(recipe());
+  ASSERT_EQ(bake("--lobes 4 --base lambert --no-evidence").exit_code, 0);
+  const io::Json first = io::read_json(path("baked/bumps.realis.json"));
+  const std::string again = "bake -q --force --base lambert --no-evidence --lobe-set " +
+                            quoted("baked/bumps.realis.json") + " -o " + quoted("again") + " " +
+                            quoted("stack/bumps.olat.json");
+  ASSERT_EQ(run(again + " --timings").exit_code, 0);
+  const io::Json second = io::read_json(path("again/bumps.realis.json"));
+  EXPECT_EQ(second["penalty"], first["penalty"]);
+  EXPECT_EQ(second["packing"], first["packing"]);
+  EXPECT_FALSE(second["bake"].contains("sample_texels"));
+  EXPECT_GT(second["bake"]["timings"]["phases"]["total"][0].get<double>(), 0.0);
+  const tests::JsonSchema schema(
+      io::read_json(std::filesystem::path(BRDFIT_SOURCE_DIR) / "docs/schema/realis.schema.json"));
+  EXPECT_EQ(schema.complaint(second), "");
+  const auto amplitudes = [&](const std::string& file) {
+    return io::ExrRowReader(path(file), {"lobe00.Y", "lobe01.Y", "lobe02.Y", "lobe03.Y"}).read(0, 20);
+  };
+  const std::vector<float> expected = amplitudes("baked/bumps.amplitudes.exr");
+  const std::vector<float> found = amplitudes("again/bumps.amplitudes.exr");
+  for (std::size_t k = 0; k < found.size(); ++k) ASSERT_NEAR(found[k], expected[k], 1e-4) << k;
+
+  ASSERT_EQ(run(again + " --lobes-only").exit_code, 0);
+  EXPECT_TRUE(io::read_json(path("again/bumps.realis.json"))["bake"].contains("sample_texels"));
+  EXPECT_EQ(bake("--lobes-only").exit_code, 2);
+}
+
 TEST_F(CliBake, RelightsAsTheStackWasLit) {
   synth(recipe());
   ASSERT_EQ(bake("--lobes 4 --base lambert --no-evidence").exit_code, 0);

@@ -1,0 +1,57 @@
+// Pictures read for nothing.
+#include "io/decode_floor.h"
+
+#include <tbb/parallel_for.h>
+#include <unistd.h>
+
+#include <algorithm>
+#include <cstddef>
+#include <filesystem>
+#include <span>
+#include <system_error>
+#include <vector>
+
+#include "io/image_reader.h"
+
+namespace brdfit::io {
+namespace {
+
+constexpr int kRowsAtOnce = 16;
+// Of the memory that is free, and of the folder: others need some too.
+constexpr double kShare = 0.5;
+
+}  // namespace
+
+void decode_all(const StackSource& source) {
+  std::vector<std::filesystem::path> files;
+  for (const StackPicture& picture : source.pictures) files.push_back(picture.file);
+  for (const auto& frame : {source.dark, source.flat, source.mask, source.normals, source.albedo}) {
+    if (frame) files.push_back(*frame);
+  }
+  tbb::parallel_for(std::size_t{0}, files.size(), [&](std::size_t k) {
+    ImageReader reader(files[k]);
+    const ImageHeader& header = reader.header();
+    std::vector<std::byte> rows(kRowsAtOnce * header.row_bytes());
+    for (int first = 0; first < header.height; first += kRowsAtOnce) {
+      const int count = std::min(kRowsAtOnce, header.height - first);
+      reader.read_native(first, count,
+                         std::span(rows).first(static_cast<std::size_t>(count) * header.row_bytes()));
+    }
+  });
+}
+
+bool pays_to_spill(const StackSource& source) {
+  const ImageReader reader(source.pictures.front().file);
+  const ImageHeader& header = reader.header();
+  if (header.format != "jpeg" && header.format != "png") return false;
+  const double bytes =
+      static_cast<double>(header.row_bytes()) * header.height * static_cast<double>(source.pictures.size());
+  const double memory =
+      static_cast<double>(sysconf(_SC_AVPHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGESIZE));
+  std::error_code error;
+  const std::filesystem::space_info folder =
+      std::filesystem::space(std::filesystem::temp_directory_path(), error);
+  return !error && bytes <= kShare * memory && bytes <= kShare * static_cast<double>(folder.available);
+}
+
+}  // namespace brdfit::io
