@@ -5,12 +5,20 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <stdexcept>
 
 #include "bake/luminance.h"
 
 namespace brdfit::bake {
 namespace {
+
+// A model must lower the error in this share of the folds, and in the mean by so many standard errors.
+constexpr double kHelpedFolds = 0.75;
+constexpr double kStandardErrors = 2.0;
+// Under fewer lights errors of folds say too little about a light that is not like the others: where
+// there are 12, one of them can decide, whatever rule is applied to the other 11.
+constexpr std::size_t kLeastLights = 16;
 
 // In folds, few values and steps from where the fit to all lights began are enough to compare models.
 constexpr std::size_t kFoldValues = 12000;
@@ -83,7 +91,7 @@ void add_fold(const StackInfo& info, const TexelBlock& block, const LightChoice&
         errors_of(info, gained, block, surface, training, held_out, candidate, starts[k], options);
     candidate.training_rmse += errors.training * errors.training;
     // Folds may differ in size by a light.
-    candidate.held_out_rmse += errors.held_out * errors.held_out * static_cast<double>(held_out.size());
+    candidate.fold_errors.push_back(errors.held_out * errors.held_out * static_cast<double>(held_out.size()));
   }
 }
 
@@ -103,10 +111,31 @@ std::vector<std::optional<Material>> starts_of(const StackInfo& info, const Texe
   return starts;
 }
 
+double sum(const std::vector<double>& values) {
+  return std::accumulate(values.begin(), values.end(), 0.0);
+}
+
+// Whether the error falls in most folds, and in their mean by more than the chance of which lights were held
+// out: with few lights one fold can decide by far.
+bool is_surely_better(const BaseCandidate& candidate, const BaseCandidate& than) {
+  const auto folds = static_cast<double>(than.fold_errors.size());
+  const double mean = (sum(than.fold_errors) - sum(candidate.fold_errors)) / folds;
+  double squares = 0.0;
+  double helped = 0.0;
+  for (std::size_t f = 0; f < than.fold_errors.size(); ++f) {
+    const double gain = than.fold_errors[f] - candidate.fold_errors[f];
+    if (gain > 0.0) helped += 1.0;
+    squares += (gain - mean) * (gain - mean);
+  }
+  const double error = std::sqrt(squares / (folds * std::max(folds - 1.0, 1.0)));
+  return helped >= kHelpedFolds * folds && mean > kStandardErrors * error;
+}
+
 std::size_t best_of(const std::vector<BaseCandidate>& candidates, double margin) {
   std::size_t best = 0;
   for (std::size_t k = 1; k < candidates.size(); ++k) {
-    if (candidates[k].held_out_rmse < (1.0 - margin) * candidates[best].held_out_rmse) best = k;
+    const bool lower = candidates[k].held_out_rmse < (1.0 - margin) * candidates[best].held_out_rmse;
+    if (lower && is_surely_better(candidates[k], candidates[best])) best = k;
   }
   return best;
 }
@@ -133,7 +162,9 @@ BaseChoice choose_base_model(const StackInfo& info, const TexelBlock& block, con
   if (!options.is_valid(&why)) throw std::invalid_argument("choose_base_model: " + why);
   BaseChoice choice;
   choice.candidates.push_back({});
-  for (const Model model : options.models) choice.candidates.push_back({.model = model});
+  if (lights.size() >= kLeastLights) {
+    for (const Model model : options.models) choice.candidates.emplace_back().model = model;
+  }
   const StackInfo gained = with_gains(info, gains_of(info, block, lights, options, &choice.gains));
   const Surface surface = photometric_stereo(gained, block, lights, options.stereo);
   const auto starts = starts_of(gained, block, surface, lights, options, choice.candidates);
@@ -149,7 +180,7 @@ BaseChoice choose_base_model(const StackInfo& info, const TexelBlock& block, con
     }
     for (BaseCandidate& candidate : choice.candidates) {
       candidate.training_rmse = std::sqrt(candidate.training_rmse / static_cast<double>(folds));
-      candidate.held_out_rmse = std::sqrt(candidate.held_out_rmse / static_cast<double>(lights.size()));
+      candidate.held_out_rmse = std::sqrt(sum(candidate.fold_errors) / static_cast<double>(lights.size()));
     }
     choice.chosen = best_of(choice.candidates, options.margin);
   }
