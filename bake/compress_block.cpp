@@ -11,7 +11,7 @@ namespace brdfit::bake {
 namespace {
 
 // Enough that ranges fitted to them cost others no more.
-constexpr std::size_t kMostRangeTexels = 2048;
+constexpr std::size_t kMostRangeTexels = 512;
 
 bool has_amplitudes(std::span<const float> amplitudes, std::size_t texels, std::size_t texel) {
   for (std::size_t at = texel; at < amplitudes.size(); at += texels) {

@@ -28,7 +28,7 @@ struct Compressed {
   std::vector<std::uint32_t> masks;  // per texel, bit k: lobe k is kept; 0 for texels without amplitudes
 };
 
-// Ranges of the lobes' codes from up to 2048 texels of a block, spread evenly over those that have
+// Ranges of the lobes' codes from up to 512 texels of a block, spread evenly over those that have
 // amplitudes; all with step 0 where none has, or amplitudes are not rounded. Throws std::invalid_argument
 // where sizes disagree.
 std::vector<RealisRange> code_ranges(const LobeSystem& system, const TexelProblem& problem,
