@@ -125,7 +125,9 @@ TEST(ParityPairs, AreUnitVectorsAndWhatTheirKindSays) {
       ASSERT_GE(least, 0.0F) << name_of(kind) << " " << k;
     }
     if (least > 0.0F && least < std::numeric_limits<float>::min()) denormals_in.insert(kind);
-    if (kind == PairKind::kRight) ASSERT_LT(std::abs(wi[0] * wo[0] + wi[1] * wo[1] + wi[2] * wo[2]), 0.7F);
+    if (kind == PairKind::kRight) {
+      ASSERT_LT(std::abs(wi[0] * wo[0] + wi[1] * wo[1] + wi[2] * wo[2]), 0.7F);
+    }
   }
   EXPECT_TRUE(denormals_in.count(PairKind::kDenormal));
 }
