@@ -5,21 +5,11 @@
 #include <array>
 #include <stdexcept>
 
-#include "brdf/coefficients.h"
+#include "brdf/product_eval.h"
 #include "brdf/simd/dispatch.h"
 
 namespace brdfit {
 namespace {
-
-template <class Coefs, class Terms, class Combine>
-Rgb combine_channels(const Coefs& coefs, const Terms& terms, const kernel::Geometry<double>& g,
-                     const Combine& combine) {
-  Rgb result;
-  for (std::size_t c = 0; c < 3; ++c) {
-    result[c] = kernel::above_horizon(combine(coefs.colour[c], terms), g.cos_i, g.cos_o);
-  }
-  return result;
-}
 
 bool above(const Vec3& wi, const Vec3& wo) {
   return wi.z > 0.0 && wo.z > 0.0;
@@ -31,29 +21,7 @@ Rgb eval_cos(const Material& material, const Vec3& wi, const Vec3& wo) {
   if (!above(wi, wo)) return {0.0, 0.0, 0.0};
   const auto g = kernel::geometry_from_directions(wi.x, wi.y, wi.z, wo.x, wo.y, wo.z);
   const std::vector<double> q = product_form(material);
-  const MaterialOptions& options = material.options();
-  const int masking = static_cast<int>(options.masking);
-  const int diffuse = static_cast<int>(options.diffuse);
-  const int effects = static_cast<int>(material.effects().bits());
-  switch (material.model()) {
-    case Model::kLambertGgx: {
-      const auto coefs = lambert_ggx_coefficients(q.data());
-      return combine_channels(coefs, kernel::lambert_ggx_terms(coefs.shape, g, masking, diffuse), g,
-                              [](const auto& c, const auto& t) { return kernel::lambert_ggx_combine(c, t); });
-    }
-    case Model::kBurley: {
-      const auto coefs = burley_coefficients(q.data(), effects);
-      const int burley_g = static_cast<int>(options.burley_g);
-      return combine_channels(coefs, kernel::burley_terms(coefs.shape, g, burley_g, effects), g,
-                              [](const auto& c, const auto& t) { return kernel::burley_combine(c, t); });
-    }
-    case Model::kCallisto:
-      break;
-  }
-  const auto coefs = callisto_coefficients(q.data());
-  const auto logs = kernel::geometry_logs(g);
-  return combine_channels(coefs, kernel::callisto_terms(coefs.shape, g, logs, masking, diffuse, effects), g,
-                          [](const auto& c, const auto& t) { return kernel::callisto_combine(c, t); });
+  return eval_product(material.model(), material.options(), material.effects(), q.data(), g);
 }
 
 Rgb eval(const Material& material, const Vec3& wi, const Vec3& wo) {

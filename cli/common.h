@@ -52,6 +52,7 @@ Command add_bake_command(CLI::App& program);
 Command add_relight_command(CLI::App& program);
 Command add_synth_command(CLI::App& program);
 Command add_export_command(CLI::App& program);
+Command add_verify_command(CLI::App& program);
 Command add_demo_command(CLI::App& program);
 
 // Throws UsageError when the file exists and force is off; the folder must exist or be creatable, and is

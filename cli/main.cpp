@@ -60,7 +60,8 @@ int run(int argc, char** argv) {
       add_fit_command(program),    add_table_command(program),  add_info_command(program),
       add_slice_command(program),  add_sphere_command(program), add_compare_command(program),
       add_report_command(program), add_bake_command(program),   add_relight_command(program),
-      add_synth_command(program),  add_export_command(program), add_demo_command(program)};
+      add_synth_command(program),  add_export_command(program), add_verify_command(program),
+      add_demo_command(program)};
   for (const Command& command : commands) {
     command.app->set_version_flag("--version", std::string("brdfit ") + kVersion);
   }

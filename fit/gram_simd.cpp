@@ -103,6 +103,7 @@ struct Reader {
     g.h_x = load(2, at);
     g.cos_h = load(3, at);
     g.cos_d = load(4, at);
+    g.cos_k = kernel::cos_k_from_cos_d(g.cos_d);
     g.one_minus_cos_h = load(5, at);
     g.one_minus_cos_d = load(6, at);
     g.h_y = g.wi_x = g.wi_y = g.wo_x = g.wo_y = V(0.0);

@@ -1,4 +1,4 @@
-// The Vulkan side of ComputeDevice: instance, device, buffers, pipeline, dispatch.
+// Buffers, pipelines and dispatches of a ComputeDevice.
 #include "gpu/compute.h"
 
 #include <algorithm>
@@ -6,279 +6,229 @@
 #include <cstring>
 #include <stdexcept>
 #include <utility>
-#include <vulkan/vulkan_raii.hpp>
+
+#include "gpu/vulkan_buffer.h"
+#include "gpu/vulkan_device.h"
 
 namespace brdfit {
-namespace {
 
-constexpr std::uint32_t kInputBinding = 0;
-constexpr std::uint32_t kOutputBinding = 1;
+using gpu::SharedBuffer;
 
-// The loader is opened when the program runs, so that a program with this library starts without one.
-vk::raii::Context open_loader() {
-  try {
-    return vk::raii::Context();
-  } catch (const std::exception& error) {
-    throw std::runtime_error(std::string("There is no Vulkan loader (") + error.what() +
-                             "). On Debian: apt-get install libvulkan1");
-  }
-}
-
-vk::raii::Instance create_instance(const vk::raii::Context& context) {
-  const vk::ApplicationInfo application("brdfit", 1, nullptr, 0, VK_API_VERSION_1_1);
-  try {
-    return context.createInstance(vk::InstanceCreateInfo({}, &application));
-  } catch (const vk::SystemError& error) {
-    throw std::runtime_error(
-        std::string("There is no usable Vulkan driver (") + error.what() +
-        "). Install the driver of the GPU or, for the processor, on Debian: apt-get install "
-        "mesa-vulkan-drivers");
-  }
-}
-
-std::string name_of(const vk::raii::PhysicalDevice& device) {
-  return std::string(device.getProperties().deviceName.data());
-}
-
-std::vector<std::string> names_of(const std::vector<vk::raii::PhysicalDevice>& devices) {
-  std::vector<std::string> names;
-  for (const vk::raii::PhysicalDevice& device : devices) names.push_back(name_of(device));
-  return names;
-}
-
-std::vector<vk::raii::PhysicalDevice> enumerate_devices(const vk::raii::Instance& instance) {
-  try {
-    return instance.enumeratePhysicalDevices();
-  } catch (const vk::SystemError& error) {
-    throw std::runtime_error(std::string("The Vulkan devices could not be listed (") + error.what() + ").");
-  }
-}
-
-// "0: llvmpipe, 1: ..."
-std::string list_of(const std::vector<vk::raii::PhysicalDevice>& devices) {
-  std::string list;
-  for (std::size_t k = 0; k < devices.size(); ++k) {
-    list += (k == 0 ? "" : ", ") + std::to_string(k) + ": " + name_of(devices[k]);
-  }
-  return list;
-}
-
-std::size_t index_by_name(const std::vector<vk::raii::PhysicalDevice>& devices, std::string_view text) {
-  for (std::size_t k = 0; k < devices.size(); ++k) {
-    if (name_of(devices[k]).find(text) != std::string::npos) return k;
-  }
-  throw std::runtime_error("No Vulkan device has \"" + std::string(text) +
-                           "\" in its name. There are: " + list_of(devices));
-}
-
-const vk::raii::PhysicalDevice& device_at(const std::vector<vk::raii::PhysicalDevice>& devices,
-                                          std::size_t index) {
-  if (index >= devices.size()) {
-    throw std::runtime_error("There is no Vulkan device " + std::to_string(index) +
-                             ". There are: " + list_of(devices));
-  }
-  return devices[index];
-}
-
-std::uint32_t compute_queue_family(const vk::raii::PhysicalDevice& device) {
-  if (device.getProperties().apiVersion < VK_API_VERSION_1_1) {
-    throw std::runtime_error("The Vulkan device " + name_of(device) +
-                             " is older than Vulkan 1.1: choose another one or update its driver.");
-  }
-  const std::vector<vk::QueueFamilyProperties> families = device.getQueueFamilyProperties();
-  for (std::uint32_t k = 0; k < families.size(); ++k) {
-    if (families[k].queueFlags & vk::QueueFlagBits::eCompute) return k;
-  }
-  throw std::runtime_error("The Vulkan device " + name_of(device) + " cannot compute: choose another one.");
-}
-
-vk::raii::Device create_device(const vk::raii::PhysicalDevice& physical, std::uint32_t queue_family) {
-  const float priority = 1.0F;
-  const vk::DeviceQueueCreateInfo queue({}, queue_family, 1, &priority);
-  try {
-    return physical.createDevice(vk::DeviceCreateInfo({}, queue));
-  } catch (const vk::SystemError& error) {
-    throw std::runtime_error("The Vulkan device " + name_of(physical) + " could not be opened (" +
-                             error.what() + ").");
-  }
-}
-
-// Storage that the processor and the device both see.
-struct SharedBuffer {
-  vk::raii::Buffer buffer;
-  vk::raii::DeviceMemory memory;
-};
-
-// Every implementation has a memory type that is both visible and coherent for buffers.
-std::uint32_t shared_memory_type(const vk::PhysicalDeviceMemoryProperties& memory, std::uint32_t allowed) {
-  const vk::MemoryPropertyFlags wanted =
-      vk::MemoryPropertyFlagBits::eHostVisible | vk::MemoryPropertyFlagBits::eHostCoherent;
-  for (std::uint32_t k = 0; k < memory.memoryTypeCount; ++k) {
-    if ((allowed >> k & 1U) != 0 && (memory.memoryTypes[k].propertyFlags & wanted) == wanted) return k;
-  }
-  throw std::runtime_error("The Vulkan device has no memory that it shares with the processor.");
-}
-
-SharedBuffer create_shared_buffer(const vk::raii::PhysicalDevice& physical, const vk::raii::Device& device,
-                                  std::size_t bytes) {
-  vk::raii::Buffer buffer =
-      device.createBuffer(vk::BufferCreateInfo({}, bytes, vk::BufferUsageFlagBits::eStorageBuffer));
-  const vk::MemoryRequirements needs = buffer.getMemoryRequirements();
-  const std::uint32_t type = shared_memory_type(physical.getMemoryProperties(), needs.memoryTypeBits);
-  vk::raii::DeviceMemory memory = device.allocateMemory(vk::MemoryAllocateInfo(needs.size, type));
-  buffer.bindMemory(*memory, 0);
-  return {std::move(buffer), std::move(memory)};
-}
-
-void write(const SharedBuffer& buffer, std::span<const float> values) {
-  std::memcpy(buffer.memory.mapMemory(0, values.size_bytes()), values.data(), values.size_bytes());
-  buffer.memory.unmapMemory();
-}
-
-void read(const SharedBuffer& buffer, std::span<float> values) {
-  std::memcpy(values.data(), buffer.memory.mapMemory(0, values.size_bytes()), values.size_bytes());
-  buffer.memory.unmapMemory();
-}
-
-// A compute pipeline over two storage buffers.
-struct Pipeline {
+struct ComputePipeline::State {
   vk::raii::DescriptorSetLayout set_layout;
   vk::raii::PipelineLayout layout;
   vk::raii::Pipeline pipeline;
+  std::size_t input_count;
+  std::size_t push_bytes;
 };
 
-vk::raii::DescriptorSetLayout create_set_layout(const vk::raii::Device& device) {
-  const auto storage = [](std::uint32_t binding) {
-    return vk::DescriptorSetLayoutBinding(binding, vk::DescriptorType::eStorageBuffer, 1,
-                                          vk::ShaderStageFlagBits::eCompute);
-  };
-  const std::array bindings = {storage(kInputBinding), storage(kOutputBinding)};
+ComputePipeline::ComputePipeline(std::unique_ptr<State> state) : state_(std::move(state)) {}
+ComputePipeline::ComputePipeline(ComputePipeline&&) noexcept = default;
+ComputePipeline& ComputePipeline::operator=(ComputePipeline&&) noexcept = default;
+ComputePipeline::~ComputePipeline() = default;
+
+namespace {
+
+vk::raii::DescriptorSetLayout create_set_layout(const vk::raii::Device& device, std::size_t buffers) {
+  std::vector<vk::DescriptorSetLayoutBinding> bindings;
+  for (std::uint32_t k = 0; k < buffers; ++k) {
+    bindings.emplace_back(k, vk::DescriptorType::eStorageBuffer, 1, vk::ShaderStageFlagBits::eCompute);
+  }
   return device.createDescriptorSetLayout(vk::DescriptorSetLayoutCreateInfo({}, bindings));
 }
 
-Pipeline create_pipeline(const vk::raii::Device& device, std::span<const std::uint32_t> spirv) {
-  const std::uint32_t group_size = ComputeDevice::kGroupSize;
-  const vk::SpecializationMapEntry entry(0, 0, sizeof(group_size));
-  const vk::SpecializationInfo constants(1, &entry, sizeof(group_size), &group_size);
-  const vk::raii::ShaderModule shader =
-      device.createShaderModule(vk::ShaderModuleCreateInfo({}, spirv.size_bytes(), spirv.data()));
-  const vk::PipelineShaderStageCreateInfo stage({}, vk::ShaderStageFlagBits::eCompute, *shader, "main",
-                                                &constants);
-
-  vk::raii::DescriptorSetLayout set_layout = create_set_layout(device);
-  vk::raii::PipelineLayout layout =
-      device.createPipelineLayout(vk::PipelineLayoutCreateInfo({}, *set_layout));
-  vk::raii::Pipeline pipeline =
-      device.createComputePipeline(nullptr, vk::ComputePipelineCreateInfo({}, stage, *layout));
-  return {std::move(set_layout), std::move(layout), std::move(pipeline)};
+vk::raii::PipelineLayout create_layout(const vk::raii::Device& device,
+                                       const vk::raii::DescriptorSetLayout& set_layout,
+                                       std::size_t push_bytes) {
+  const vk::PushConstantRange push(vk::ShaderStageFlagBits::eCompute, 0,
+                                   static_cast<std::uint32_t>(push_bytes));
+  vk::PipelineLayoutCreateInfo info({}, *set_layout);
+  if (push_bytes > 0) info.setPushConstantRanges(push);
+  return device.createPipelineLayout(info);
 }
 
-// The descriptor set of a pipeline's two buffers, with the pool that it lives in.
+vk::raii::Pipeline create_pipeline(const vk::raii::Device& device, const PipelineRequest& request,
+                                   const vk::raii::PipelineLayout& layout) {
+  std::vector<std::int32_t> values = {static_cast<std::int32_t>(ComputeDevice::kGroupSize)};
+  values.insert(values.end(), request.constants.begin(), request.constants.end());
+  std::vector<vk::SpecializationMapEntry> entries;
+  for (std::uint32_t k = 0; k < values.size(); ++k) entries.emplace_back(k, 4 * k, 4);
+  const vk::SpecializationInfo constants(static_cast<std::uint32_t>(entries.size()), entries.data(),
+                                         4 * values.size(), values.data());
+  const vk::raii::ShaderModule shader = device.createShaderModule(
+      vk::ShaderModuleCreateInfo({}, request.spirv.size_bytes(), request.spirv.data()));
+  const vk::PipelineShaderStageCreateInfo stage({}, vk::ShaderStageFlagBits::eCompute, *shader, "main",
+                                                &constants);
+  return device.createComputePipeline(nullptr, vk::ComputePipelineCreateInfo({}, stage, *layout));
+}
+
+// A descriptor set, with the pool that it lives in.
 struct Bindings {
   vk::raii::DescriptorPool pool;
   vk::raii::DescriptorSet set;
 };
 
-Bindings bind(const vk::raii::Device& device, const Pipeline& pipeline, const SharedBuffer& in,
-              const SharedBuffer& out) {
-  const vk::DescriptorPoolSize two_buffers(vk::DescriptorType::eStorageBuffer, 2);
-  vk::raii::DescriptorPool pool = device.createDescriptorPool(
-      vk::DescriptorPoolCreateInfo(vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, 1, two_buffers));
-  vk::raii::DescriptorSets sets(device, vk::DescriptorSetAllocateInfo(*pool, *pipeline.set_layout));
-  const vk::DescriptorBufferInfo in_info(*in.buffer, 0, VK_WHOLE_SIZE);
-  const vk::DescriptorBufferInfo out_info(*out.buffer, 0, VK_WHOLE_SIZE);
-  const auto storage = [&](std::uint32_t binding, const vk::DescriptorBufferInfo& info) {
-    return vk::WriteDescriptorSet(*sets[0], binding, 0, vk::DescriptorType::eStorageBuffer, {}, info);
-  };
-  device.updateDescriptorSets({storage(kInputBinding, in_info), storage(kOutputBinding, out_info)}, {});
-  return {std::move(pool), std::move(sets[0])};
-}
+// A buffer and how much of it a job uses: shaders that ask for the length of a buffer see that.
+struct Used {
+  const SharedBuffer& buffer;
+  std::size_t bytes;
+};
 
-// Records one dispatch, after which the processor may read what the shader wrote.
-void record(const vk::raii::CommandBuffer& commands, const Pipeline& pipeline, const Bindings& bindings,
-            std::uint32_t groups) {
-  commands.begin(vk::CommandBufferBeginInfo(vk::CommandBufferUsageFlagBits::eOneTimeSubmit));
-  commands.bindPipeline(vk::PipelineBindPoint::eCompute, *pipeline.pipeline);
-  commands.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *pipeline.layout, 0, {*bindings.set}, {});
-  commands.dispatch(groups, 1, 1);
-  const vk::MemoryBarrier shader_to_host(vk::AccessFlagBits::eShaderWrite, vk::AccessFlagBits::eHostRead);
-  commands.pipelineBarrier(vk::PipelineStageFlagBits::eComputeShader, vk::PipelineStageFlagBits::eHost, {},
-                           shader_to_host, {}, {});
-  commands.end();
+Bindings bind_buffers(const vk::raii::Device& device, const vk::raii::DescriptorSetLayout& layout,
+                      std::span<const Used> buffers) {
+  const auto count = static_cast<std::uint32_t>(buffers.size());
+  const vk::DescriptorPoolSize size(vk::DescriptorType::eStorageBuffer, count);
+  vk::raii::DescriptorPool pool = device.createDescriptorPool(
+      vk::DescriptorPoolCreateInfo(vk::DescriptorPoolCreateFlagBits::eFreeDescriptorSet, 1, size));
+  vk::raii::DescriptorSets sets(device, vk::DescriptorSetAllocateInfo(*pool, *layout));
+  for (std::uint32_t k = 0; k < count; ++k) {
+    const vk::DescriptorBufferInfo info(buffers[k].buffer.handle(), 0, buffers[k].bytes);
+    device.updateDescriptorSets(
+        vk::WriteDescriptorSet(*sets[0], k, 0, vk::DescriptorType::eStorageBuffer, {}, info), {});
+  }
+  return {std::move(pool), std::move(sets[0])};
 }
 
 std::size_t groups_for(std::size_t invocations) {
   return (invocations + ComputeDevice::kGroupSize - 1) / ComputeDevice::kGroupSize;
 }
 
-void require_within_limits(const vk::raii::PhysicalDevice& device, std::span<const float> in,
-                           std::span<const float> out) {
+ComputeLimits limits_of(const vk::raii::PhysicalDevice& device) {
   const vk::PhysicalDeviceLimits limits = device.getProperties().limits;
-  const std::size_t bytes = std::max(in.size_bytes(), out.size_bytes());
-  if (bytes > limits.maxStorageBufferRange) {
-    throw std::runtime_error("A buffer of " + std::to_string(bytes) + " bytes is more than the " +
-                             std::to_string(limits.maxStorageBufferRange) + " that the Vulkan device " +
-                             name_of(device) + " takes: run it in parts.");
-  }
-  if (groups_for(out.size()) > limits.maxComputeWorkGroupCount[0]) {
-    throw std::runtime_error("More invocations (" + std::to_string(out.size()) + ") than the Vulkan device " +
-                             name_of(device) + " takes at once: run it in parts.");
-  }
+  return {limits.maxStorageBufferRange,
+          std::size_t{limits.maxComputeWorkGroupCount[0]} * ComputeDevice::kGroupSize,
+          limits.maxPushConstantsSize};
 }
+
+// The device's clock: two readings around a dispatch.
+class Clock {
+ public:
+  Clock(const vk::raii::PhysicalDevice& physical, const vk::raii::Device& device, std::uint32_t queue_family)
+      : bits_(physical.getQueueFamilyProperties()[queue_family].timestampValidBits),
+        ns_per_tick_(static_cast<double>(physical.getProperties().limits.timestampPeriod)),
+        pool_(nullptr) {
+    if (bits_ == 0) return;
+    pool_ = device.createQueryPool(vk::QueryPoolCreateInfo({}, vk::QueryType::eTimestamp, 2));
+  }
+
+  void reset(const vk::raii::CommandBuffer& commands) const {
+    if (bits_ > 0) commands.resetQueryPool(*pool_, 0, 2);
+  }
+  void read(const vk::raii::CommandBuffer& commands, vk::PipelineStageFlagBits stage,
+            std::uint32_t query) const {
+    if (bits_ > 0) commands.writeTimestamp(stage, *pool_, query);
+  }
+
+  std::optional<double> elapsed_ns() const {
+    if (bits_ == 0) return std::nullopt;
+    const auto [result, ticks] =
+        pool_.getResults<std::uint64_t>(0, 2, 2 * sizeof(std::uint64_t), sizeof(std::uint64_t),
+                                        vk::QueryResultFlagBits::e64 | vk::QueryResultFlagBits::eWait);
+    if (result != vk::Result::eSuccess) return std::nullopt;
+    const std::uint64_t mask = bits_ >= 64 ? ~std::uint64_t{0} : (std::uint64_t{1} << bits_) - 1;
+    return static_cast<double>((ticks[1] - ticks[0]) & mask) * ns_per_tick_;
+  }
+
+ private:
+  std::uint32_t bits_;
+  double ns_per_tick_;
+  vk::raii::QueryPool pool_;
+};
 
 }  // namespace
 
 struct ComputeDevice::State {
-  vk::raii::Context context = open_loader();
-  vk::raii::Instance instance = create_instance(context);
-  std::vector<vk::raii::PhysicalDevice> devices = enumerate_devices(instance);
-  vk::raii::PhysicalDevice physical = nullptr;
+  gpu::VulkanInstance instance;
+  vk::raii::PhysicalDevice physical;
   std::string name;
-  std::uint32_t queue_family = 0;
-  vk::raii::Device device = nullptr;
+  ComputeLimits limits;
+  std::uint32_t queue_family;
+  vk::raii::Device device;
+  vk::raii::Queue queue;
+  vk::raii::CommandPool commands;
+  Clock clock;
+  // Kept from run to run; they grow.
+  std::vector<SharedBuffer> inputs;
+  SharedBuffer output;
 
-  State() {
-    if (devices.empty()) {
-      throw std::runtime_error(
-          "There is a Vulkan driver but no device. For a device on the processor, on Debian: apt-get install "
-          "mesa-vulkan-drivers");
+  explicit State(const DeviceRequest& request)
+      : instance(request.on_validation_message),
+        physical(gpu::choose_device(instance.devices(), request.device)),
+        name(gpu::name_of(physical)),
+        limits(limits_of(physical)),
+        queue_family(gpu::compute_queue_family(physical)),
+        device(gpu::open_device(physical, queue_family)),
+        queue(device.getQueue(queue_family, 0)),
+        commands(device.createCommandPool(
+            vk::CommandPoolCreateInfo(vk::CommandPoolCreateFlagBits::eTransient, queue_family))),
+        clock(physical, device, queue_family) {}
+
+  void upload(const ComputeJob& job) {
+    inputs.resize(std::max(inputs.size(), job.inputs.size()));
+    for (std::size_t k = 0; k < job.inputs.size(); ++k) {
+      inputs[k].reserve(physical, device, job.inputs[k].size_bytes());
+      std::ranges::copy(job.inputs[k], inputs[k].bytes().begin());
     }
   }
 
-  void open(std::size_t index) {
-    physical = device_at(devices, index);
-    name = name_of(physical);
-    queue_family = compute_queue_family(physical);
-    device = create_device(physical, queue_family);
+  // Records one dispatch, after which the processor may read what the shader wrote.
+  void record(const vk::raii::CommandBuffer& to, const ComputePipeline::State& pipeline,
+              const Bindings& bindings, const ComputeJob& job) const {
+    to.begin(vk::CommandBufferBeginInfo(vk::CommandBufferUsageFlagBits::eOneTimeSubmit));
+    clock.reset(to);
+    to.bindPipeline(vk::PipelineBindPoint::eCompute, *pipeline.pipeline);
+    to.bindDescriptorSets(vk::PipelineBindPoint::eCompute, *pipeline.layout, 0, {*bindings.set}, {});
+    if (!job.push.empty()) {
+      to.pushConstants<std::byte>(*pipeline.layout, vk::ShaderStageFlagBits::eCompute, 0, job.push);
+    }
+    clock.read(to, vk::PipelineStageFlagBits::eTopOfPipe, 0);
+    to.dispatch(static_cast<std::uint32_t>(groups_for(job.invocations)), 1, 1);
+    clock.read(to, vk::PipelineStageFlagBits::eBottomOfPipe, 1);
+    const vk::MemoryBarrier shader_to_host(vk::AccessFlagBits::eShaderWrite, vk::AccessFlagBits::eHostRead);
+    to.pipelineBarrier(vk::PipelineStageFlagBits::eComputeShader, vk::PipelineStageFlagBits::eHost, {},
+                       shader_to_host, {}, {});
+    to.end();
   }
 
-  void submit(const Pipeline& pipeline, const Bindings& bindings, std::uint32_t groups) {
-    const vk::raii::CommandPool pool = device.createCommandPool(
-        vk::CommandPoolCreateInfo(vk::CommandPoolCreateFlagBits::eTransient, queue_family));
-    const vk::raii::CommandBuffers commands(
-        device, vk::CommandBufferAllocateInfo(*pool, vk::CommandBufferLevel::ePrimary, 1));
-    record(commands[0], pipeline, bindings, groups);
-    const vk::raii::Queue queue = device.getQueue(queue_family, 0);
-    queue.submit(vk::SubmitInfo({}, {}, *commands[0]));
+  std::optional<double> run(const ComputePipeline::State& pipeline, const ComputeJob& job,
+                            std::span<std::byte> out) {
+    upload(job);
+    output.reserve(physical, device, out.size_bytes());
+    std::vector<Used> buffers;
+    for (std::size_t k = 0; k < job.inputs.size(); ++k) {
+      buffers.push_back({inputs[k], job.inputs[k].size_bytes()});
+    }
+    buffers.push_back({output, out.size_bytes()});
+    const Bindings bindings = bind_buffers(device, pipeline.set_layout, buffers);
+    const vk::raii::CommandBuffers recorded(
+        device, vk::CommandBufferAllocateInfo(*commands, vk::CommandBufferLevel::ePrimary, 1));
+    record(recorded[0], pipeline, bindings, job);
+    queue.submit(vk::SubmitInfo({}, {}, *recorded[0]));
     queue.waitIdle();
+    std::ranges::copy(output.bytes().first(out.size()), out.begin());
+    return clock.elapsed_ns();
   }
 
-  void run(std::span<const std::uint32_t> spirv, std::span<const float> in, std::span<float> out) {
-    require_within_limits(physical, in, out);
-    const SharedBuffer in_buffer = create_shared_buffer(physical, device, in.size_bytes());
-    const SharedBuffer out_buffer = create_shared_buffer(physical, device, out.size_bytes());
-    write(in_buffer, in);
-    const Pipeline pipeline = create_pipeline(device, spirv);
-    const Bindings bindings = bind(device, pipeline, in_buffer, out_buffer);
-    submit(pipeline, bindings, static_cast<std::uint32_t>(groups_for(out.size())));
-    read(out_buffer, out);
+  void check(const ComputePipeline::State& pipeline, const ComputeJob& job,
+             std::span<const std::byte> out) const {
+    bool sound = job.inputs.size() == pipeline.input_count && job.push.size() == pipeline.push_bytes &&
+                 !out.empty() && out.size() <= limits.buffer_bytes && job.invocations > 0 &&
+                 job.invocations <= limits.invocations;
+    for (const std::span<const std::byte> input : job.inputs) {
+      sound = sound && !input.empty() && input.size() <= limits.buffer_bytes;
+    }
+    if (!sound) {
+      throw std::invalid_argument(
+          "ComputeDevice::run: a span is empty, does not fit the pipeline, or is beyond the device's limits");
+    }
   }
 };
 
 std::vector<std::string> compute_device_names() {
-  const vk::raii::Context context = open_loader();
-  const vk::raii::Instance instance = create_instance(context);
-  return names_of(enumerate_devices(instance));
+  const gpu::VulkanInstance instance(nullptr);
+  std::vector<std::string> names;
+  for (const vk::raii::PhysicalDevice& device : instance.devices()) names.push_back(gpu::name_of(device));
+  return names;
 }
 
 ComputeDevice::ComputeDevice(std::unique_ptr<State> state) : state_(std::move(state)) {}
@@ -286,37 +236,52 @@ ComputeDevice::ComputeDevice(ComputeDevice&&) noexcept = default;
 ComputeDevice& ComputeDevice::operator=(ComputeDevice&&) noexcept = default;
 ComputeDevice::~ComputeDevice() = default;
 
-ComputeDevice ComputeDevice::first() {
-  return by_index(0);
-}
-
-ComputeDevice ComputeDevice::by_index(std::size_t index) {
-  auto state = std::make_unique<State>();
-  state->open(index);
-  return ComputeDevice(std::move(state));
-}
-
-ComputeDevice ComputeDevice::by_name(std::string_view text) {
-  auto state = std::make_unique<State>();
-  state->open(index_by_name(state->devices, text));
-  return ComputeDevice(std::move(state));
+ComputeDevice ComputeDevice::open(const DeviceRequest& request) {
+  return ComputeDevice(std::make_unique<State>(request));
 }
 
 const std::string& ComputeDevice::name() const {
   return state_->name;
 }
 
-void ComputeDevice::run(std::span<const std::uint32_t> spirv, std::span<const float> in,
-                        std::span<float> out) {
-  if (spirv.empty() || in.empty() || out.empty()) {
-    throw std::invalid_argument(
-        "ComputeDevice::run needs a shader, an input and an output that are not empty.");
-  }
+bool ComputeDevice::is_processor() const {
+  return state_->physical.getProperties().deviceType == vk::PhysicalDeviceType::eCpu;
+}
+
+const ComputeLimits& ComputeDevice::limits() const {
+  return state_->limits;
+}
+
+ComputePipeline ComputeDevice::compile(const PipelineRequest& request) const {
+  if (request.spirv.empty()) throw std::invalid_argument("ComputeDevice::compile: the shader is empty");
   try {
-    state_->run(spirv, in, out);
+    const vk::raii::Device& device = state_->device;
+    vk::raii::DescriptorSetLayout set_layout = create_set_layout(device, request.input_count + 1);
+    vk::raii::PipelineLayout layout = create_layout(device, set_layout, request.push_bytes);
+    vk::raii::Pipeline pipeline = create_pipeline(device, request, layout);
+    return ComputePipeline(std::make_unique<ComputePipeline::State>(
+        ComputePipeline::State{std::move(set_layout), std::move(layout), std::move(pipeline),
+                               request.input_count, request.push_bytes}));
   } catch (const vk::SystemError& error) {
-    throw std::runtime_error("The Vulkan device " + name() + " failed (" + error.what() + ").");
+    throw gpu::gpu_error_of(error, name());
   }
+}
+
+std::optional<double> ComputeDevice::run(const ComputePipeline& pipeline, const ComputeJob& job,
+                                         std::span<std::byte> out) {
+  state_->check(*pipeline.state_, job, out);
+  try {
+    return state_->run(*pipeline.state_, job, out);
+  } catch (const vk::SystemError& error) {
+    throw gpu::gpu_error_of(error, name());
+  }
+}
+
+void run_shader(ComputeDevice& device, std::span<const std::uint32_t> spirv, std::span<const float> in,
+                std::span<float> out) {
+  const ComputePipeline pipeline = device.compile({spirv, {}, 1, 0});
+  const std::array input = {std::as_bytes(in)};
+  device.run(pipeline, {input, {}, out.size()}, std::as_writable_bytes(out));
 }
 
 }  // namespace brdfit

@@ -134,6 +134,7 @@ std::vector<kernel::Geometry<double>> exact_geometries() {
         g.cos_h = cos_h;
         g.h_x = 1.0 - cos_h;
         g.cos_d = cos_d;
+        g.cos_k = kernel::cos_k_from_cos_d(cos_d);
         g.one_minus_cos_h = 1.0 - cos_h;
         g.one_minus_cos_d = 1.0 - cos_d;
         result.push_back(g);

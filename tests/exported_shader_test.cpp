@@ -12,14 +12,9 @@
 
 #include "brdf/models.h"
 #include "brdf/shader/material_shader.h"
-#include "gpu/compute.h"
+#include "tests/gpu_device.h"
 #include "tests/random_parameters.h"
 #include "tests/temp_folder.h"
-
-// LeakSanitizer's hook: what Mesa's processor driver allocates for itself and never frees is not ours.
-extern "C" const char* __lsan_default_suppressions() {
-  return "leak:libvulkan_lvp.so\n";
-}
 
 namespace brdfit {
 namespace {
@@ -27,12 +22,6 @@ namespace {
 using shader::Language;
 using testing_support::Random;
 using testing_support::uniform;
-
-// Never closed: LeakSanitizer cannot tell whose memory it looks at once the driver is gone.
-ComputeDevice& device() {
-  static auto* const opened = new ComputeDevice(ComputeDevice::first());
-  return *opened;
-}
 
 // The command on the shader's fourth line, with the file in place of FILE.
 std::string compile_command(const std::string& shader, const std::string& file) {
@@ -74,7 +63,7 @@ class ExportedShader : public testing::Test {
       }
     }
     std::vector<float> found(pairs.size() / 2);
-    device().run(compiled(material, options), pairs, found);
+    run_shader(tests::test_device(), compiled(material, options), pairs, found);
     for (std::size_t k = 0; k < found.size() / 4; ++k) {
       const float* p = pairs.data() + 8 * k;
       const Rgb expected = eval_cos(material, {p[0], p[1], p[2]}, {p[4], p[5], p[6]});

@@ -17,7 +17,7 @@ double product(double base_1, double exponent_1, double base_2, double exponent_
 }
 
 TEST(PowerFromLog, EqualsPow) {
-  for (const double base : {1e-300, 1e-12, 0.01, 0.3, 0.999999, 1.0}) {
+  for (const double base : {1e-29, 1e-12, 0.01, 0.3, 0.999999, 1.0}) {
     for (const double exponent : {0.0, 1e-9, 0.5, 1.0, 5.0, 10.0}) {
       const double expected = std::pow(base, exponent);
       EXPECT_NEAR(power(base, exponent), expected, 1e-12 * expected) << base << "^" << exponent;
@@ -29,6 +29,12 @@ TEST(PowerFromLog, OfZeroIsOneForExponentZeroAndElseZero) {
   EXPECT_EQ(power(0.0, 0.0), 1.0);
   EXPECT_EQ(power(0.0, 1e-12), 0.0);
   EXPECT_EQ(power(0.0, 10.0), 0.0);
+}
+
+// Devices differ in what they do with numbers so small.
+TEST(PowerFromLog, TakesBasesBelowTinyForZero) {
+  EXPECT_EQ(power(0.9e-30, 0.01), 0.0);
+  EXPECT_EQ(power(1e-40, 0.0), 1.0);
 }
 
 TEST(PowerFromLog, ClampsANegativeBaseAtZero) {
@@ -48,6 +54,40 @@ TEST(PowerProduct, IsTheProductOfThePowers) {
       }
     }
   }
+}
+
+TEST(PowerProduct, LeavesOfOneAllDigitsWhereItIsCloseToOneInFloat) {
+  for (const float distance : {1e-7F, 1e-4F, 0.03F, 0.3F, 0.7F, 0.99F}) {
+    for (const float exponent : {0.0F, 1e-3F, 0.7F, 10.0F}) {
+      const float base = 1.0F - distance;
+      const float log_1 = accurate_log_or_zero(base, distance);
+      const float power = power_product(base, log_1, exponent, 1.0F, 0.0F, 2.0F);
+      const double expected = -std::expm1(exponent * std::log1p(-static_cast<double>(distance)));
+      EXPECT_NEAR(one_minus_power_product(power, log_1, exponent, 0.0F, 2.0F), expected, 4e-7 * expected)
+          << distance << " " << exponent;
+    }
+  }
+}
+
+TEST(PowerProduct, LeavesOfOneEverythingWhereABaseIsZero) {
+  for (const double exponent : {0.0, 0.5, 10.0}) {
+    const double power = product(0.0, exponent, 0.3, 1.0);
+    EXPECT_DOUBLE_EQ(one_minus_power_product(power, log_or_zero(0.0), exponent, log_or_zero(0.3), 1.0),
+                     1.0 - power);
+  }
+}
+
+TEST(LerpReal, KeepsTheEndThatIsSmallBesideTheOther) {
+  EXPECT_EQ(lerp_real(1e7F, 0.3F, 1.0F), 0.3F);
+  EXPECT_EQ(lerp_real(0.3F, 1e7F, 0.0F), 0.3F);
+  EXPECT_DOUBLE_EQ(lerp_real(2.0, 4.0, 0.25), 2.5);
+}
+
+TEST(AccurateDot, OfFloatsKeepsItsDigitsWhereTermsCancel) {
+  const float x = 0.6F;
+  const float y = 0.8F;
+  const double expected = static_cast<double>(x) * y - static_cast<double>(y) * 0.6000001F;
+  EXPECT_NEAR(accurate_dot(x, y, 0.0F, y, -0.6000001F, 0.5F), expected, 1e-7 * std::abs(expected));
 }
 
 TEST(SmoothstepFromZero, IsTheHermiteStep) {

@@ -30,6 +30,7 @@ inline kernel::Geometry<double> geometry_of(const SampleSet& samples, std::size_
   g.h_x = columns.sin_h[k];
   g.cos_h = columns.cos_h[k];
   g.cos_d = columns.cos_d[k];
+  g.cos_k = kernel::cos_k_from_cos_d(g.cos_d);
   g.one_minus_cos_h = columns.one_minus_cos_h[k];
   g.one_minus_cos_d = columns.one_minus_cos_d[k];
   return g;

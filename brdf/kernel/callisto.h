@@ -44,7 +44,9 @@ BRDF_REAL_STRUCT(CallistoColour) {
 BRDF_REAL_STRUCT(CallistoTerms) {
   Real diffuse;          // f cos_i of the diffuse base per unit albedo
   Real fresnel;          // a_f
+  Real less_fresnel;     // 1 - a_f, to its last digits
   Real retro;            // a_r
+  Real less_retro;       // 1 - a_r
   Real falloff;          // of the specular Fresnel
   Real specular;         // blended D V cos_i of the lobes
   Real terminator;       // a_s
@@ -53,10 +55,12 @@ BRDF_REAL_STRUCT(CallistoTerms) {
 
 // What cos_i and cos_o do not change; see lambert_ggx.h.
 BRDF_REAL_STRUCT(CallistoLine) {
-  Real fresnel;  // a_f
-  Real retro;    // a_r
-  Real falloff;  // of the specular Fresnel
-  Real d_1;      // D of the lobes
+  Real fresnel;       // a_f
+  Real less_fresnel;  // 1 - a_f
+  Real retro;         // a_r
+  Real less_retro;    // 1 - a_r
+  Real falloff;       // of the specular Fresnel
+  Real d_1;           // D of the lobes
   Real d_2;
   Real terminator;  // a_s
 };
@@ -121,7 +125,9 @@ callisto_line(OF_REAL(CallistoShape) shape, OF_GEO(Geometry) g, OF_GEO(GeometryL
   OF_REAL(CallistoLine) line;
   Geo sin_h_squared = g.h_x * g.h_x + g.h_y * g.h_y;
   line.fresnel = REAL(0.0);
+  line.less_fresnel = REAL(1.0);
   line.retro = REAL(0.0);
+  line.less_retro = REAL(1.0);
   line.terminator = REAL(0.0);
   line.d_1 = ggx_d(shape.alpha_1, sin_h_squared, g.cos_h);
   line.d_2 = REAL(0.0);
@@ -136,10 +142,14 @@ callisto_line(OF_REAL(CallistoShape) shape, OF_GEO(Geometry) g, OF_GEO(GeometryL
   if ((effects & BRDF_EFFECT_DIFFUSE_FRESNEL) != 0) {
     line.fresnel = power_product(g.one_minus_cos_d, logs.one_minus_cos_d, shape.fresnel_exponent, g.cos_h,
                                  logs.cos_h, shape.fresnel_tangent_exponent);
+    line.less_fresnel = one_minus_power_product(line.fresnel, logs.one_minus_cos_d, shape.fresnel_exponent,
+                                                logs.cos_h, shape.fresnel_tangent_exponent);
   }
   if ((effects & BRDF_EFFECT_RETROREFLECTION) != 0) {
     line.retro = power_product(g.one_minus_cos_h, logs.one_minus_cos_h, shape.retro_exponent, g.cos_d,
                                logs.cos_d, shape.retro_tangent_exponent);
+    line.less_retro = one_minus_power_product(line.retro, logs.one_minus_cos_h, shape.retro_exponent,
+                                              logs.cos_d, shape.retro_tangent_exponent);
   }
   if ((effects & BRDF_EFFECT_SMOOTH_TERMINATOR) != 0) line.terminator = TO_REAL(callisto_terminator_mask(g));
   return line;
@@ -163,7 +173,9 @@ callisto_terms_of_line(OF_REAL(CallistoShape) shape, OF_REAL(CallistoLine) line,
   OF_REAL(CallistoTerms) terms;
   terms.diffuse = diffuse_base_cos(shape.alpha_1, g, diffuse);
   terms.fresnel = line.fresnel;
+  terms.less_fresnel = line.less_fresnel;
   terms.retro = line.retro;
+  terms.less_retro = line.less_retro;
   terms.falloff = line.falloff;
   terms.specular = lobes * g.cos_i;
   terms.terminator = line.terminator;
@@ -185,8 +197,8 @@ callisto_terms(OF_REAL(CallistoShape) shape, OF_GEO(Geometry) g, OF_GEO(Geometry
 
 BRDF_REAL_FUNCTION
 Real callisto_combine(OF_REAL(CallistoColour) colour, OF_REAL(CallistoTerms) terms) {
-  Real c1 = (REAL(1.0) + (colour.fresnel - REAL(1.0)) * terms.fresnel) *
-            (REAL(1.0) + (colour.retro - REAL(1.0)) * terms.retro);
+  Real c1 =
+      (terms.less_fresnel + colour.fresnel * terms.fresnel) * (terms.less_retro + colour.retro * terms.retro);
   Real c2 = REAL(1.0) + (terms.terminator_step - REAL(1.0)) * (terms.terminator * colour.terminator);
   return (c1 * colour.rho * terms.diffuse + fresnel(colour.f0, terms.falloff) * terms.specular) * c2;
 }

@@ -13,7 +13,7 @@ BRDF_NAMESPACE_BEGIN
 BRDF_FUNCTION
 Real diffuse_base_cos(Real alpha, OF_GEO(Geometry) g, int diffuse) {
   if (diffuse == BRDF_DIFFUSE_PROXIMA) {
-    return proxima_eval_cos(alpha, g.cos_i, g.cos_d);
+    return proxima_eval_cos(alpha, g.cos_i, g.cos_d, g.cos_k);
   }
   return TO_REAL(GEO(BRDF_INV_PI) * g.cos_i);
 }

@@ -51,6 +51,47 @@ template <class T>
 inline T select(bool condition, const T& yes, const T& no) {
   return condition ? yes : no;
 }
+
+// Where terms cancel, single precision needs more than the plain formula, which serves every other type.
+// glsl_float.h has the same functions for GLSL.
+
+// a . b, to the last digits even where its terms cancel.
+template <class T>
+inline T accurate_dot(T a_x, T a_y, T a_z, T b_x, T b_y, T b_z) {
+  return a_x * b_x + a_y * b_y + a_z * b_z;
+}
+inline float accurate_dot(float a_x, float a_y, float a_z, float b_x, float b_y, float b_z) {
+  return static_cast<float>(
+      accurate_dot<double>(double{a_x}, double{a_y}, double{a_z}, double{b_x}, double{b_y}, double{b_z}));
+}
+
+// By how much numbers whose squares add up to `sum` are to be multiplied before they are squared again, lest
+// their squares vanish.
+template <class T>
+inline T scale_before_squares(T) {
+  return T(1.0);
+}
+inline float scale_before_squares(float sum) {
+  return sum > 1e-30F ? 1.0F : 0x1p100F;
+}
+
+// log(x) for x > 0 from x and 1 - x, with all digits where x is close to 1.
+template <class T>
+inline T accurate_log(T x, T) {
+  return log(x);
+}
+inline float accurate_log(float x, float one_minus_x) {
+  return one_minus_x < 0.5F ? std::log1p(-one_minus_x) : std::log(x);
+}
+
+// 1 - exp(x) for x <= 0 from x and exp(x), with all digits where x is close to 0.
+template <class T>
+inline T one_minus_exp(T, T exp_x) {
+  return T(1.0) - exp_x;
+}
+inline float one_minus_exp(float x, float) {
+  return -std::expm1(x);
+}
 BRDF_NAMESPACE_END
 
 #else  // GLSL
@@ -70,9 +111,7 @@ BRDF_NAMESPACE_END
 #define BRDF_NAMESPACE_BEGIN
 #define BRDF_NAMESPACE_END
 
-float select(bool condition, float yes, float no) {
-  return condition ? yes : no;
-}
+#include "glsl_float.h"
 
 #endif
 

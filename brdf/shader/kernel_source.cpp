@@ -109,7 +109,9 @@ bool parse_constant(const std::string& line, Declaration& out) {
 
 void add_header(std::string_view name, std::set<std::string, std::less<>>& seen,
                 std::vector<Declaration>& out) {
-  if (name == "lang.h" || !seen.emplace(name).second) return;
+  // Of the dialect only what it adds to GLSL.
+  if (name == "lang.h") name = "glsl_float.h";
+  if (!seen.emplace(name).second) return;
   for (const std::string& paragraph : paragraphs(text_of(name))) {
     if (starts_with(paragraph, "#include")) {
       const std::size_t quote = paragraph.find('"') + 1;

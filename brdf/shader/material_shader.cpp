@@ -117,7 +117,6 @@ class Writer {
       used.merge(words_of(it->text));
       kernel = text_of_declaration(*it) + kernel;
     }
-    if (used.count("select") != 0) kernel = select_function() + kernel;
     return head() + guard() + finished(kernel + body) + compute_main() + "\n#endif\n";
   }
 
@@ -186,10 +185,6 @@ class Writer {
                          declaration.text);
     }
     return fmt::format("{}{}\n\n", declaration.comment, declaration.text);
-  }
-
-  static std::string select_function() {
-    return "float select(bool condition, float yes, float no) {\n  return condition ? yes : no;\n}\n\n";
   }
 
   // Those that the material's effects use.
@@ -306,6 +301,8 @@ class Writer {
       if (is_own) return with_prefix(word.text);
       // A primitive type in HLSL.
       if (!is_glsl() && word.text == "line") return std::string("line_of");
+      if (!is_glsl() && word.text == "uintBitsToFloat") return std::string("asfloat");
+      if (!is_glsl() && word.text == "floatBitsToUint") return std::string("asuint");
       return word.text;
     });
   }

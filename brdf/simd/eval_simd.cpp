@@ -108,6 +108,7 @@ HWY_FLATTEN void eval_lines_of(const Coefficients& k, const LineColumns& columns
       const std::size_t i = first + lane;
       kernel::Geometry<V> of_line = g;
       of_line.cos_d = V(columns.cos_d[i]);
+      of_line.cos_k = kernel::cos_k_from_cos_d(of_line.cos_d);
       of_line.one_minus_cos_d = V(columns.one_minus_cos_d[i]);
       eval_pairs(model, spread(lines, lane), of_line, columns, i * columns.stride, columns.count[i], f,
                  swapped);

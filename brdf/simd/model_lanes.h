@@ -20,6 +20,7 @@ HWY_INLINE kernel::Geometry<V> load_geometry(const GeometryColumns& g, std::size
   r.h_y = V(0.0);
   r.cos_h = V::load(g.cos_h + at);
   r.cos_d = V::load(g.cos_d + at);
+  r.cos_k = kernel::cos_k_from_cos_d(r.cos_d);
   r.one_minus_cos_h = V::load(g.one_minus_cos_h + at);
   r.one_minus_cos_d = V::load(g.one_minus_cos_d + at);
   // Only anisotropic lobes look at these, and columns are isotropic.
