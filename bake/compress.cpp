@@ -44,27 +44,43 @@ LobeVector solve(const TexelEquations& equations) {
   return all.a.llt().solve(all.b);
 }
 
-Dominant dominant_lobes(const TexelEquations& equations, int count) {
-  if (count < 0) throw std::invalid_argument("dominant_lobes: a negative number of lobes");
-  std::vector<int> kept = lobes_of(all_lobes(equations.b.size()), equations.b.size());
-  Dominant out{LobeVector::Zero(equations.b.size()), 0};
-  while (true) {
-    const TexelEquations part = restricted(equations, kept);
-    const auto size = static_cast<Eigen::Index>(kept.size());
-    const auto factor = part.a.llt();
-    const LobeVector amplitudes = factor.solve(part.b);
-    if (static_cast<int>(kept.size()) <= count) {
-      for (Eigen::Index k = 0; k < size; ++k)
-        out.amplitudes[kept[static_cast<std::size_t>(k)]] = amplitudes[k];
-      break;
-    }
-    // Without lobe k the error rises by a_k^2 / (A^-1)_kk.
-    const LobeMatrix inverse = factor.solve(LobeMatrix::Identity(size, size));
+namespace {
+
+// Adds to `losses` what each lobe's going would add to the error: a_k^2 / (A^-1)_kk.
+void add_losses(const TexelEquations& equations, const std::vector<int>& kept, LobeVector& losses) {
+  const TexelEquations part = restricted(equations, kept);
+  const auto size = static_cast<Eigen::Index>(kept.size());
+  const auto factor = part.a.llt();
+  const LobeVector amplitudes = factor.solve(part.b);
+  const LobeMatrix inverse = factor.solve(LobeMatrix::Identity(size, size));
+  losses.array() += amplitudes.array().square() / inverse.diagonal().array();
+}
+
+}  // namespace
+
+std::uint32_t dominant_mask(std::span<const TexelEquations> channels, int count) {
+  if (count < 0) throw std::invalid_argument("dominant_mask: a negative number of lobes");
+  if (channels.empty()) throw std::invalid_argument("dominant_mask: no equations");
+  const Eigen::Index lobes = channels[0].b.size();
+  std::vector<int> kept = lobes_of(all_lobes(lobes), lobes);
+  while (static_cast<int>(kept.size()) > count) {
+    LobeVector losses = LobeVector::Zero(static_cast<Eigen::Index>(kept.size()));
+    for (const TexelEquations& equations : channels) add_losses(equations, kept, losses);
     Eigen::Index least = 0;
-    (amplitudes.array().square() / inverse.diagonal().array()).minCoeff(&least);
+    losses.minCoeff(&least);
     kept.erase(kept.begin() + least);
   }
-  for (const int lobe : kept) out.mask |= 1U << static_cast<unsigned>(lobe);
+  std::uint32_t mask = 0;
+  for (const int lobe : kept) mask |= 1U << static_cast<unsigned>(lobe);
+  return mask;
+}
+
+LobeVector refit(const TexelEquations& equations, std::uint32_t mask) {
+  LobeVector out = LobeVector::Zero(equations.b.size());
+  const std::vector<int> kept = lobes_of(mask, equations.b.size());
+  const TexelEquations part = restricted(equations, kept);
+  const LobeVector amplitudes = part.a.llt().solve(part.b);
+  for (std::size_t k = 0; k < kept.size(); ++k) out[kept[k]] = amplitudes[static_cast<Eigen::Index>(k)];
   return out;
 }
 

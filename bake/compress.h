@@ -7,6 +7,7 @@
 
 #include <Eigen/Core>
 #include <cstdint>
+#include <span>
 #include <vector>
 
 #include "bake/lobes.h"
@@ -32,14 +33,13 @@ TexelEquations restricted(const TexelEquations& equations, const std::vector<int
 // The solution; 0 for a texel without any light.
 LobeVector solve(const TexelEquations& equations);
 
-// The `count` lobes that are missed least when the others go, taken away one by one (the one whose loss costs
-// least, then the rest solved again), and their refitted amplitudes; the others' are 0. Bit k of mask: lobe k
-// is kept.
-struct Dominant {
-  LobeVector amplitudes;
-  std::uint32_t mask = 0;
-};
-Dominant dominant_lobes(const TexelEquations& equations, int count);
+// The solution with the lobes of a mask alone; the others' amplitudes are 0.
+LobeVector refit(const TexelEquations& equations, std::uint32_t mask);
+
+// The `count` lobes that are missed least when the others go, taken away one by one: the one whose loss costs
+// least, then the rest solved again. Bit k: lobe k is kept. Several equations, as those of a texel's colour
+// channels, share one mask.
+std::uint32_t dominant_mask(std::span<const TexelEquations> channels, int count);
 
 }  // namespace brdfit::bake
 

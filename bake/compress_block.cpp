@@ -20,7 +20,27 @@ bool has_amplitudes(std::span<const float> amplitudes, std::size_t texels, std::
   return false;
 }
 
+std::uint32_t mask_of(const TexelEquations& equations, const CompressOptions& options,
+                      std::span<const std::uint32_t> masks, std::size_t texel) {
+  return masks.empty() ? dominant_mask(std::span(&equations, 1), options.dominant) : masks[texel];
+}
+
 }  // namespace
+
+std::vector<std::uint32_t> dominant_masks(const LobeSystem& system, std::span<const TexelProblem> problems,
+                                          std::span<const SolveResult> solved, int dominant) {
+  const std::size_t count = problems.empty() ? 0 : problems[0].texels;
+  std::vector<std::uint32_t> masks(count, 0);
+  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t texel) {
+    std::vector<TexelEquations> channels;
+    for (std::size_t p = 0; p < problems.size(); ++p) {
+      if (has_amplitudes(solved[p].amplitudes, count, texel))
+        channels.push_back(texel_equations(system, problems[p], texel));
+    }
+    if (!channels.empty()) masks[texel] = dominant_mask(channels, dominant);
+  });
+  return masks;
+}
 
 TexelEquations texel_equations(const LobeSystem& system, const TexelProblem& problem, std::size_t texel) {
   const auto lobes = static_cast<Eigen::Index>(system.lobes().size());
@@ -45,7 +65,8 @@ TexelEquations texel_equations(const LobeSystem& system, const TexelProblem& pro
 }
 
 std::vector<RealisRange> code_ranges(const LobeSystem& system, const TexelProblem& problem,
-                                     std::span<const float> amplitudes, const CompressOptions& options) {
+                                     std::span<const float> amplitudes, const CompressOptions& options,
+                                     std::span<const std::uint32_t> masks) {
   const std::size_t lobes = system.lobes().size();
   if (amplitudes.size() != lobes * problem.texels) throw std::invalid_argument("code_ranges: sizes disagree");
   if (options.bits == 0) return std::vector<RealisRange>(lobes);
@@ -56,16 +77,17 @@ std::vector<RealisRange> code_ranges(const LobeSystem& system, const TexelProble
   const std::size_t count = std::min(used.size(), kMostRangeTexels);
   std::vector<CodeSearch> texels(count);
   tbb::parallel_for(std::size_t{0}, count, [&](std::size_t k) {
-    const TexelEquations equations =
-        texel_equations(system, problem, used[(2 * k + 1) * used.size() / (2 * count)]);
-    texels[k] = CodeSearch(equations, dominant_lobes(equations, options.dominant).mask);
+    const std::size_t texel = used[(2 * k + 1) * used.size() / (2 * count)];
+    const TexelEquations equations = texel_equations(system, problem, texel);
+    texels[k] = CodeSearch(equations, mask_of(equations, options, masks, texel));
   });
   return fitted_ranges(texels, lobes, options.bits);
 }
 
 Compressed compress_block(const LobeSystem& system, const TexelProblem& problem,
                           std::span<const float> amplitudes, std::span<const std::uint32_t> texels, int width,
-                          std::span<const RealisRange> ranges, const CompressOptions& options) {
+                          std::span<const RealisRange> ranges, const CompressOptions& options,
+                          std::span<const std::uint32_t> masks) {
   const std::size_t lobes = system.lobes().size();
   const std::size_t count = problem.texels;
   if (amplitudes.size() != lobes * count || texels.size() != count || width <= 0 ||
@@ -80,13 +102,12 @@ Compressed compress_block(const LobeSystem& system, const TexelProblem& problem,
   tbb::parallel_for(std::size_t{0}, count, [&](std::size_t texel) {
     if (!has_amplitudes(amplitudes, count, texel)) return;
     const TexelEquations equations = texel_equations(system, problem, texel);
-    const Dominant dominant = dominant_lobes(equations, options.dominant);
-    out.masks[texel] = dominant.mask;
+    const std::uint32_t mask = mask_of(equations, options, masks, texel);
+    out.masks[texel] = mask;
     if (options.bits == 0) {
-      for (std::size_t k = 0; k < lobes; ++k) {
-        out.amplitudes[k * count + texel] =
-            static_cast<float>(dominant.amplitudes[static_cast<Eigen::Index>(k)]);
-      }
+      const LobeVector refitted = refit(equations, mask);
+      for (std::size_t k = 0; k < lobes; ++k)
+        out.amplitudes[k * count + texel] = static_cast<float>(refitted[static_cast<Eigen::Index>(k)]);
       return;
     }
     std::array<double, kMaxLobes> dither{};
@@ -95,8 +116,7 @@ Compressed compress_block(const LobeSystem& system, const TexelProblem& problem,
       dither[k] = dither_threshold(texels[texel] % wide, texels[texel] / wide, static_cast<int>(k));
     }
     const std::span<const double> noise(dither.data(), options.dither ? lobes : 0);
-    const std::vector<int> codes =
-        quantise(equations, quantiser, dominant.mask, noise, search_steps(options.bits));
+    const std::vector<int> codes = quantise(equations, quantiser, mask, noise, search_steps(options.bits));
     for (std::size_t k = 0; k < lobes; ++k) {
       out.codes[k * count + texel] = codes[k];
       out.amplitudes[k * count + texel] = static_cast<float>(quantiser.amplitude(k, codes[k]));

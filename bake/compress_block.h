@@ -28,18 +28,26 @@ struct Compressed {
   std::vector<std::uint32_t> masks;  // per texel, bit k: lobe k is kept; 0 for texels without amplitudes
 };
 
+// Per texel, the lobes that all problems of a block (its colour channels) keep together; 0 for texels without
+// amplitudes in any. solved: of each problem.
+std::vector<std::uint32_t> dominant_masks(const LobeSystem& system, std::span<const TexelProblem> problems,
+                                          std::span<const SolveResult> solved, int dominant);
+
 // Ranges of the lobes' codes from up to 512 texels of a block, spread evenly over those that have
 // amplitudes; all with step 0 where none has, or amplitudes are not rounded. Throws std::invalid_argument
-// where sizes disagree.
+// where sizes disagree. masks: the lobes that texels keep (dominant_masks); empty: each problem its own.
 std::vector<RealisRange> code_ranges(const LobeSystem& system, const TexelProblem& problem,
-                                     std::span<const float> amplitudes, const CompressOptions& options);
+                                     std::span<const float> amplitudes, const CompressOptions& options,
+                                     std::span<const std::uint32_t> masks = {});
 
 // ranges: per lobe (code_ranges); not looked at where amplitudes are not rounded. texels: pixel of each, for
 // the dither. width: of the picture. Texels whose amplitudes are all 0 (not selected) stay so. Parallel over
-// texels; the same for any number of threads. Throws std::invalid_argument where sizes disagree.
+// texels; the same for any number of threads. masks: as of code_ranges. Throws std::invalid_argument where
+// sizes disagree.
 Compressed compress_block(const LobeSystem& system, const TexelProblem& problem,
                           std::span<const float> amplitudes, std::span<const std::uint32_t> texels, int width,
-                          std::span<const RealisRange> ranges, const CompressOptions& options);
+                          std::span<const RealisRange> ranges, const CompressOptions& options,
+                          std::span<const std::uint32_t> masks = {});
 
 }  // namespace brdfit::bake
 

@@ -52,8 +52,35 @@ void check(const RealisAsset& asset, const RunTimeTexels& texels) {
 
 }  // namespace
 
-Relit relight(const RealisAsset& asset, const RunTimeTexels& texels, const RunTimeLight& light) {
+std::vector<double> correction(const RealisAsset& asset, const RunTimeTexels& texels,
+                               const RunTimeLight& light) {
   check(asset, texels);
+  const std::size_t count = texels.surface.count();
+  const bool is_rgb = asset.colour == RealisColour::kRgb;
+  std::vector<double> values;
+  for (const Lobe& lobe : asset.lobes) values.push_back(eval(lobe, light.direction));
+  std::vector<double> out(3 * count, 0.0);
+  for (std::size_t texel = 0; texel < count; ++texel) {
+    const double cos_i = light.direction.x * at(texels.surface.normals, 0, count, texel) +
+                         light.direction.y * at(texels.surface.normals, 1, count, texel) +
+                         light.direction.z * at(texels.surface.normals, 2, count, texel);
+    if (!(cos_i > 0.0)) continue;
+    const double shade = cos_i * fade_of(asset.fade, texels.surface, texels.baked, texel);
+    for (std::size_t c = 0; c < 3; ++c) {
+      double sum = 0.0;
+      for (std::size_t lobe = 0; lobe < values.size(); ++lobe) {
+        sum += at(texels.amplitudes, is_rgb ? lobe * 3 + c : lobe, count, texel) * values[lobe];
+      }
+      if (!texels.chroma.empty()) sum *= at(texels.chroma, c, count, texel);
+      const double albedo = asset.albedo_in_modulation ? at(texels.surface.albedo, c, count, texel) : 1.0;
+      out[c * count + texel] = light.intensity[c] * albedo * shade * sum;
+    }
+  }
+  return out;
+}
+
+Relit relight(const RealisAsset& asset, const RunTimeTexels& texels, const RunTimeLight& light) {
+  const std::vector<double> added = correction(asset, texels, light);
   const std::size_t count = texels.surface.count();
   const StackInfo info = stack_of(asset, light);
   TexelBlock block;
@@ -66,24 +93,7 @@ Relit relight(const RealisAsset& asset, const RunTimeTexels& texels, const RunTi
   Relit out;
   out.render = render_block(info, block, texels.surface, all_lights(info), base);
   out.corrected = out.render;
-  const bool is_rgb = asset.colour == RealisColour::kRgb;
-  for (std::size_t texel = 0; texel < count; ++texel) {
-    const double cos_i = light.direction.x * at(texels.surface.normals, 0, count, texel) +
-                         light.direction.y * at(texels.surface.normals, 1, count, texel) +
-                         light.direction.z * at(texels.surface.normals, 2, count, texel);
-    if (!(cos_i > 0.0)) continue;
-    const double shade = cos_i * fade_of(asset.fade, texels.surface, texels.baked, texel);
-    for (std::size_t c = 0; c < 3; ++c) {
-      double sum = 0.0;
-      for (std::size_t lobe = 0; lobe < asset.lobes.size(); ++lobe) {
-        sum += at(texels.amplitudes, is_rgb ? lobe * 3 + c : lobe, count, texel) *
-               eval(asset.lobes[lobe], light.direction);
-      }
-      if (!texels.chroma.empty()) sum *= at(texels.chroma, c, count, texel);
-      const double albedo = asset.albedo_in_modulation ? at(texels.surface.albedo, c, count, texel) : 1.0;
-      out.corrected[c * count + texel] += static_cast<float>(light.intensity[c] * albedo * shade * sum);
-    }
-  }
+  for (std::size_t k = 0; k < added.size(); ++k) out.corrected[k] += static_cast<float>(added[k]);
   return out;
 }
 

@@ -31,6 +31,11 @@ struct Relit {
   std::vector<float> corrected;  // with Realis. May be negative, where lobes take away more than there is
 };
 
+// What Realis adds to the render: modulation x fade x sum over lobes, [channel][texel]; 0 where a texel faces
+// away. Throws std::invalid_argument where sizes disagree.
+std::vector<double> correction(const RealisAsset& asset, const RunTimeTexels& texels,
+                               const RunTimeLight& light);
+
 // Every value is finite. Where nothing fades, the result is what the amplitudes were solved for. Throws
 // std::invalid_argument where sizes disagree.
 Relit relight(const RealisAsset& asset, const RunTimeTexels& texels, const RunTimeLight& light);

@@ -213,6 +213,7 @@ struct AssetReader::State {
   std::optional<io::ExrRowReader> surface;
   std::vector<io::ImageReader> codes;
   std::optional<io::ImageReader> dominant;
+  bake::PackedTexels bytes;  // of the rows read last
 
   void require_size(int width, int height, const std::string& file) const {
     if (width == asset.width && height == asset.height) return;
@@ -246,11 +247,11 @@ std::vector<std::uint8_t> bytes_of_rows(io::ImageReader& reader, int first_row, 
 std::vector<float> AssetReader::State::read_amplitudes(int first_row, int rows) {
   if (asset.lobes.empty()) return {};
   if (!packed) return amplitudes->read(first_row, rows);
-  bake::PackedTexels texels;
-  for (io::ImageReader& reader : codes) texels.textures.push_back(bytes_of_rows(reader, first_row, rows));
-  if (dominant) texels.mask = bytes_of_rows(*dominant, first_row, rows);
+  bytes.textures.clear();
+  for (io::ImageReader& reader : codes) bytes.textures.push_back(bytes_of_rows(reader, first_row, rows));
+  if (dominant) bytes.mask = bytes_of_rows(*dominant, first_row, rows);
   const std::size_t count = static_cast<std::size_t>(rows) * static_cast<std::size_t>(asset.width);
-  const std::vector<int> whole = bake::unpack(layout_of(asset), texels, count);
+  const std::vector<int> whole = bake::unpack(layout_of(asset), bytes, count);
   std::vector<float> out(whole.size());
   for (std::size_t k = 0; k < whole.size(); ++k) {
     const RealisRange& range = asset.packing.ranges[k / count];
@@ -290,6 +291,10 @@ AssetReader::AssetReader(RealisAsset asset, std::filesystem::path folder, bool p
 }
 
 AssetReader::~AssetReader() = default;
+
+const bake::PackedTexels& AssetReader::packed_bytes() const {
+  return state_->bytes;
+}
 
 bake::RunTimeTexels AssetReader::read(int first_row, int rows) {
   State& s = *state_;

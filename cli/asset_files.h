@@ -55,6 +55,8 @@ class AssetReader {
   ~AssetReader();
   // Rows in order from the top, with the surface as it was baked, at run time and then.
   bake::RunTimeTexels read(int first_row, int rows);
+  // The bytes that the amplitudes of the rows read last came from, as they are stored.
+  const bake::PackedTexels& packed_bytes() const;
 
  private:
   struct State;

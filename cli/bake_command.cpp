@@ -162,6 +162,14 @@ class Bake {
 
   bake::CompressOptions compress_options() const { return {a_.bits, asset_.packing.dominant, !a_.no_dither}; }
 
+  // The lobes that the channels of each texel keep together; empty where there is one channel, or all are
+  // kept.
+  std::vector<std::uint32_t> shared_masks(const bake::BakedBlock& baked) const {
+    const int dominant = asset_.packing.dominant;
+    if (baked.solved.size() < 2 || static_cast<std::size_t>(dominant) == asset_.lobes.size()) return {};
+    return bake::dominant_masks(*plan_.system, baked.problems, baked.solved, dominant);
+  }
+
   // Of planes, [lobe][channel].
   std::vector<RealisRange> ranges() const {
     std::vector<RealisRange> planes(asset_.plane_count());
@@ -169,9 +177,10 @@ class Bake {
     if (!ranges_.empty()) return ranges_;
     const bake::BakedBlock baked = bake::bake_block(stack_.info(), sample_, plan_, settings_);
     const std::size_t channels = baked.solved.size();
+    const std::vector<std::uint32_t> shared = shared_masks(baked);
     for (std::size_t c = 0; c < channels; ++c) {
-      const std::vector<RealisRange> lobes =
-          bake::code_ranges(*plan_.system, baked.problems[c], baked.solved[c].amplitudes, compress_options());
+      const std::vector<RealisRange> lobes = bake::code_ranges(
+          *plan_.system, baked.problems[c], baked.solved[c].amplitudes, compress_options(), shared);
       for (std::size_t k = 0; k < lobes.size(); ++k) planes[k * channels + c] = lobes[k];
     }
     return planes;
@@ -203,6 +212,7 @@ class Bake {
     std::vector<std::vector<float>> amplitudes;
     std::vector<int> codes(asset_.plane_count() * block.count(), 0);
     std::vector<std::uint32_t> masks(block.count(), 0);
+    const std::vector<std::uint32_t> shared = shared_masks(baked);
     for (std::size_t c = 0; c < channels; ++c) {
       const bake::SolveResult& solved = baked.solved[c];
       std::vector<RealisRange> ranges;
@@ -211,7 +221,7 @@ class Bake {
       }
       const bake::Compressed small =
           bake::compress_block(*plan_.system, baked.problems[c], solved.amplitudes, block.texels,
-                               asset_.width, ranges, compress_options());
+                               asset_.width, ranges, compress_options(), shared);
       for (std::size_t lobe = 0; lobe < lobes; ++lobe) {
         std::copy_n(small.codes.begin() + static_cast<std::ptrdiff_t>(lobe * block.count()), block.count(),
                     codes.begin() + static_cast<std::ptrdiff_t>((lobe * channels + c) * block.count()));

@@ -6,7 +6,8 @@ namespace brdfit::cli {
 namespace {
 
 int run(const VerifyRequest& request) {
-  if (request.file.empty() && !request.list_devices) throw UsageError("a material .json is needed");
+  if (request.file.empty() && !request.list_devices)
+    throw UsageError("a material .json or NAME.realis.json is needed");
   if (request.pairs == 0) throw UsageError("--pairs is 0");
   return verify(request);
 }
@@ -23,7 +24,7 @@ Command add_verify_command(CLI::App& program) {
       "relative error of 1e-5 + 4e-7 / roughness^2 where f cos_i is above 1e-4, and an absolute one of 1e-6 "
       "elsewhere; exit code 4 says that a value was further off. Exit code 1: no Vulkan device, or it "
       "failed.");
-  app->add_option("file", a->file, "material .json");
+  app->add_option("file", a->file, "material .json, or a baked asset (NAME.realis.json)");
   app->add_option("--pairs", a->pairs, "pairs of directions, random and adversarial")->capture_default_str();
   app->add_option("--seed", a->seed, "seed of the pairs")->capture_default_str();
   app->add_option("--pair", a->pair, "this pair alone: wi_x,wi_y,wi_z,wo_x,wo_y,wo_z (unit, z = normal)")

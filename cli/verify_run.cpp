@@ -7,6 +7,7 @@
 #include <fstream>
 #include <iterator>
 
+#include "cli/verify_bake.h"
 #include "gpu/material_pass.h"
 #include "gpu/parity.h"
 #include "gpu/timing.h"
@@ -224,6 +225,11 @@ int verify(const VerifyRequest& request) {
       ++messages;
       fmt::print(stderr, "validation: {}\n", message);
     };
+  }
+  if (is_baked_asset(request.file)) {
+    ComputeDevice opened = ComputeDevice::open(device);
+    const int code = verify_bake(request, opened);
+    return messages > 0 ? static_cast<int>(kFailed) : code;
   }
   const Findings findings = find(request, device);
   if (request.common.json) {

@@ -56,6 +56,26 @@ TEST_F(CliVerify, PrintsJsonThatIsAsTheSchemaSays) {
   }
 }
 
+TEST_F(CliVerify, FindsTheCorrectionsOfBakedAssetsToAgree) {
+  const tests::JsonSchema schema(
+      io::read_json(std::filesystem::path(BRDFIT_SOURCE_DIR) / "docs/schema/verify_realis.schema.json"));
+  std::ofstream(path("dots.json")) << R"({"brdfit_stack_recipe": 1, "name": "dots", "width": 20, "height": 12,
+      "materials": [{"brdfit": 1, "model": "lambert-ggx", "parameters": {"base_color": [0.5, 0.4, 0.3]}}],
+      "lights": {"arrangement": "dome", "count": 20, "theta_deg": 60},
+      "residual": {"lobes": 4, "sharpness": 4.0, "cut_off_deg": 180, "strength": 0.2}})";
+  ASSERT_EQ(run("synth " + quoted("dots.json") + " -q -o " + quoted("stacks")).exit_code, 0);
+  const std::string bake = "bake " + quoted("stacks/dots.olat.json") +
+                           " -q --force --no-evidence --no-panels --base lambert --uniform --lobes 4 -o " +
+                           quoted("baked");
+  for (const char* options :
+       {"", " --bits 4 --dominant 2", " --colour rgb --bits 4 --dominant 2", " --colour scaled-chroma"}) {
+    ASSERT_EQ(run(bake + options).exit_code, 0) << options;
+    const Json json = verified(quoted("baked/dots.realis.json"));
+    EXPECT_EQ(schema.complaint(json), "") << json.dump(2);
+    EXPECT_GT(json["largest_correction"].get<double>(), 0.02) << options;
+  }
+}
+
 TEST_F(CliVerify, FindsAConstantThatWasChangedInTheShaderAlone) {
   for (const char* material : {"none.json", "all.json"}) {
     const std::string planted = std::string("--shader '" BRDFIT_PLANTED "' ") + quoted(material);
