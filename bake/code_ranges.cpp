@@ -118,7 +118,9 @@ double rounding_error(std::span<const CodeSearch> texels, const Quantiser& quant
 std::vector<RealisRange> fitted_ranges(std::span<const CodeSearch> texels, std::size_t lobes, int bits) {
   Descent descent(texels, {bits, quantile_ranges(texels, lobes, bits, kTails[0])});
   for (const double tail : kTails) descent.start_from(quantile_ranges(texels, lobes, bits, tail));
-  for (int round = 0; round < kMostRounds; ++round) {
+  // Steps of many bits are so fine that moving a range's ends gains nothing.
+  const int rounds = search_steps(bits) > 0 ? kMostRounds : 0;
+  for (int round = 0; round < rounds; ++round) {
     const double before = descent.error();
     descent.round();
     if (!(descent.error() < (1.0 - kLeastGain) * before)) break;

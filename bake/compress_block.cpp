@@ -10,8 +10,11 @@
 namespace brdfit::bake {
 namespace {
 
-// Enough that ranges fitted to them cost others no more.
-constexpr std::size_t kMostRangeTexels = 512;
+// Enough that ranges fitted to them cost others no more. With many bits it is the rare large amplitudes that
+// decide, and a search takes no time; with few bits it is the bulk.
+std::size_t most_range_texels(int bits) {
+  return search_steps(bits) > 0 ? 512 : 4096;
+}
 
 bool has_amplitudes(std::span<const float> amplitudes, std::size_t texels, std::size_t texel) {
   for (std::size_t at = texel; at < amplitudes.size(); at += texels) {
@@ -74,7 +77,7 @@ std::vector<RealisRange> code_ranges(const LobeSystem& system, const TexelProble
   for (std::size_t texel = 0; texel < problem.texels; ++texel) {
     if (has_amplitudes(amplitudes, problem.texels, texel)) used.push_back(texel);
   }
-  const std::size_t count = std::min(used.size(), kMostRangeTexels);
+  const std::size_t count = std::min(used.size(), most_range_texels(options.bits));
   std::vector<CodeSearch> texels(count);
   tbb::parallel_for(std::size_t{0}, count, [&](std::size_t k) {
     const std::size_t texel = used[(2 * k + 1) * used.size() / (2 * count)];

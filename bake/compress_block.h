@@ -33,9 +33,10 @@ struct Compressed {
 std::vector<std::uint32_t> dominant_masks(const LobeSystem& system, std::span<const TexelProblem> problems,
                                           std::span<const SolveResult> solved, int dominant);
 
-// Ranges of the lobes' codes from up to 512 texels of a block, spread evenly over those that have
-// amplitudes; all with step 0 where none has, or amplitudes are not rounded. Throws std::invalid_argument
-// where sizes disagree. masks: the lobes that texels keep (dominant_masks); empty: each problem its own.
+// Ranges of the lobes' codes from up to 512 texels of a block (4096 with 6 bits or more), spread evenly over
+// those that have amplitudes; all with step 0 where none has, or amplitudes are not rounded. Throws
+// std::invalid_argument where sizes disagree. masks: the lobes that texels keep (dominant_masks); empty: each
+// problem its own.
 std::vector<RealisRange> code_ranges(const LobeSystem& system, const TexelProblem& problem,
                                      std::span<const float> amplitudes, const CompressOptions& options,
                                      std::span<const std::uint32_t> masks = {});

@@ -35,7 +35,7 @@ struct BakeArguments {
   int folds = 0;
   std::vector<std::string> panels;  // empty: worst, median and best, where there is evidence
   bool no_panels = false;
-  int sample_texels = 8192;
+  int sample_texels = 4096;
   int memory_mib = 256;
   std::string spill = "auto";
   std::vector<double> noise;  // read deviation and shot; empty: what the stack says
