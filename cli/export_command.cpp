@@ -81,8 +81,8 @@ Command add_export_command(CLI::App& program) {
   auto a = std::make_shared<Arguments>();
   CLI::App* app = program.add_subcommand("export", "a fitted material for other programs");
   app->footer(
-      "Examples: brdfit export blue-fabric.callisto.json --to merl -o blue-fabric.fitted.binary\n"
-      "          brdfit export blue-fabric.callisto.json --to glsl --prefix blue_fabric\n"
+      "Example: brdfit export blue-fabric.callisto.json --to merl -o blue-fabric.fitted.binary\n"
+      "         brdfit export blue-fabric.callisto.json --to glsl --prefix blue_fabric\n"
       "A shader holds the material's own effects alone, needs no other file, and says at its top how it "
       "compiles.");
   app->add_option("file", a->file, "material .json")->required();

@@ -241,7 +241,7 @@ TEST_F(CliBakeContours, LowerWeightsBetweenShadowsThatDiffer) {
   EXPECT_EQ(schema.complaint(io::read_json(path("baked/bumps.realis.json"))), "");
   // Neither threads nor strips change a byte.
   EXPECT_EQ(baked_bytes("--contours --threads 1 --memory 16"), weighted);
-  EXPECT_EQ(baked_bytes("--contours --spill"), weighted);
+  EXPECT_EQ(baked_bytes("--contours --spill on"), weighted);
 }
 
 TEST_F(CliBakeContours, WithoutShadowMapsThereIsLittleToCompare) {

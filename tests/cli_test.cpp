@@ -26,8 +26,8 @@ std::size_t lines_of(const std::string& text) {
 }
 
 TEST_F(Cli, HelpGoesToStandardOutputWithAnExampleAndTheDefaultsOfTheCode) {
-  for (const char* command :
-       {"fit", "table", "info", "slice", "sphere", "compare", "report", "synth", "export", "demo"}) {
+  for (const char* command : {"fit", "table", "info", "slice", "sphere", "compare", "report", "bake",
+                              "relight", "synth", "export", "verify", "demo"}) {
     const ProgramResult help = run(std::string(command) + " --help");
     EXPECT_EQ(help.exit_code, 0) << command;
     EXPECT_THAT(help.out, HasSubstr("Example: brdfit ")) << command;
