@@ -47,7 +47,8 @@ struct BaseChoice {
 // colours; a light held out has its stated intensity. But of 30 lights or more materials start, in folds,
 // where all of the lights given led to: for errors that are to be reported, hold lights out of `lights`.
 // block: a sample of some hundred texels. Under fewer than 16 lights nothing is
-// compared, and the choice is Lambert. Throws std::invalid_argument where sizes disagree or options are invalid.
+// compared, and the choice is Lambert. Throws std::invalid_argument where sizes disagree or options are
+// invalid.
 BaseChoice choose_base_model(const StackInfo& info, const TexelBlock& block, const LightChoice& lights,
                              const ChooseBaseOptions& options = {});
 

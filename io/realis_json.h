@@ -10,9 +10,9 @@
 namespace brdfit::io {
 
 // {"brdfit_realis": 2, "name", "width", "height", "colour", "albedo_in_modulation", "frame", "view", "lobes":
-// [{"axis", "sharpness", "cos_cut_off"}...], "penalty", "base": "lambert" or a material, "packing": {"bits", "dominant",
-// "step", "zero", "bytes_per_texel"}, "fade": {...}, "files": {...}}. Throws std::invalid_argument if the
-// asset is not valid. See docs/schema/realis.schema.json.
+// [{"axis", "sharpness", "cos_cut_off"}...], "penalty", "base": "lambert" or a material, "packing": {"bits",
+// "dominant", "step", "zero", "bytes_per_texel"}, "fade": {...}, "files": {...}}. Throws
+// std::invalid_argument if the asset is not valid. See docs/schema/realis.schema.json.
 Json realis_to_json(const RealisAsset& asset);
 
 // Parts of it: [x, y, z], and the array of lobes.
