@@ -200,7 +200,8 @@ TEST(RealisPass, RefusesSizesThatDisagree) {
   RealisTexels view = texels.view();
   view.masks = {};
   std::vector<float> found(3 * kTexels);
-  EXPECT_THROW(RealisPass(tests::test_device()).correction(asset, view, {{0.0, 0.0, 1.0}}, found), std::invalid_argument);
+  EXPECT_THROW(RealisPass(tests::test_device()).correction(asset, view, {{0.0, 0.0, 1.0}}, found),
+               std::invalid_argument);
 }
 
 }  // namespace
