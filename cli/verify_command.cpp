@@ -34,11 +34,14 @@ Command add_verify_command(CLI::App& program) {
   app->add_flag("--list-devices", a->list_devices, "print the devices of this machine and end");
   app->add_flag("--validation", a->validation,
                 "with Vulkan's validation layers; their messages go to stderr and end in exit code 1");
+  app->add_option("--picture", a->picture,
+                  "PNG: a slice and spheres by the processor, by the device, and their difference times 1000")
+      ->take_last();
   app->add_flag("--timings", a->timings, "time every effect on the device and on the processor too");
   app->add_option("--shader", a->shader,
                   "SPIR-V file to verify in place of the built-in shader, with the interface of "
                   "gpu/shaders/material.glsl");
-  add_common_options(*app, a->common, false);
+  add_common_options(*app, a->common, true);
   return {app, [a](const std::string&) { return run(*a); }};
 }
 

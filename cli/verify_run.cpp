@@ -7,7 +7,9 @@
 #include <fstream>
 #include <iterator>
 
+#include "cli/picture_file.h"
 #include "cli/verify_bake.h"
+#include "cli/verify_pictures.h"
 #include "gpu/material_pass.h"
 #include "gpu/parity.h"
 #include "gpu/timing.h"
@@ -84,6 +86,9 @@ Findings find(const VerifyRequest& request, const DeviceRequest& device_request)
   };
   Findings findings{material, device.name(), device.is_processor(), check(), {}};
   if (request.timings) findings.timings = time_effects(pass, material);
+  if (!request.picture.empty()) {
+    write_picture(request.picture, verify_panel(material, base_name(request.file), device.name(), pass), {});
+  }
   return findings;
 }
 
@@ -217,6 +222,12 @@ int list_devices(bool json) {
 
 int verify(const VerifyRequest& request) {
   if (request.list_devices) return list_devices(request.common.json);
+  if (!request.picture.empty()) {
+    if (picture_format_of(request.picture) != PictureFormat::kPng)
+      throw UsageError("--picture " + request.picture + ": is drawn as PNG alone");
+    if (is_baked_asset(request.file)) throw UsageError("--picture draws materials, not baked assets");
+    prepare_output(request.picture, request.common.force);
+  }
   std::uint64_t messages = 0;
   DeviceRequest device;
   device.device = request.device;

@@ -19,6 +19,7 @@ struct VerifyRequest {
   std::vector<double> pair;  // wi and wo, to look at one pair alone; empty: none
   std::string device;        // index, part of a name, or empty for the first
   std::string shader;        // SPIR-V in place of the built-in one; empty: none
+  std::string picture;       // PNG of slices and spheres to write; empty: none
   bool validation = false;
   bool timings = false;
   bool list_devices = false;

@@ -56,6 +56,15 @@ TEST_F(CliVerify, PrintsJsonThatIsAsTheSchemaSays) {
   }
 }
 
+TEST_F(CliVerify, DrawsWhatBothDraw) {
+  const std::string options = "--picture " + quoted("both.png") + " " + quoted("all.json");
+  ASSERT_EQ(verify(options).exit_code, 0);
+  EXPECT_GT(std::filesystem::file_size(path("both.png")), 10000U);
+  EXPECT_EQ(verify(options).exit_code, 2);  // it is there already
+  EXPECT_EQ(verify("--force " + options).exit_code, 0);
+  EXPECT_EQ(verify("--picture both.exr " + quoted("all.json")).exit_code, 2);
+}
+
 TEST_F(CliVerify, FindsTheCorrectionsOfBakedAssetsToAgree) {
   const tests::JsonSchema schema(
       io::read_json(std::filesystem::path(BRDFIT_SOURCE_DIR) / "docs/schema/verify_realis.schema.json"));
