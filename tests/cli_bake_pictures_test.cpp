@@ -11,12 +11,11 @@
 #include "cli/common.h"
 #include "cli/panel_lights.h"
 #include "data/synthetic/stack.h"
-#include "data/synthetic/stack_recipe.h"
 #include "io/image_reader.h"
 #include "io/realis_json.h"
 #include "render/image.h"
 #include "render/view.h"
-#include "tests/cli_fixture.h"
+#include "tests/cli_stack_fixture.h"
 #include "tests/json_schema.h"
 #include "tests/picture_tools.h"
 
@@ -28,32 +27,14 @@ using testing::HasSubstr;
 
 constexpr int kLights = 30;
 
-class CliBakePictures : public tests::CliFixture {
+class CliBakePictures : public tests::CliStackFixture {
  protected:
-  // A matte surface with a residual that no model explains.
   static synthetic::StackRecipe recipe() {
-    synthetic::StackRecipe recipe;
-    recipe.name = "bumps";
-    recipe.width = 24;
-    recipe.height = 16;
-    Material material(Model::kLambertGgx);
-    material.set("base_color", Rgb{0.6, 0.4, 0.2});
-    material.set("specular", 0.0);
-    recipe.materials = {material};
-    recipe.shape.slope = 0.4;
+    synthetic::StackRecipe recipe = matte_bumps(24, 16, kLights);
+    recipe.materials[0].set("base_color", Rgb{0.6, 0.4, 0.2});
     recipe.shape.wavelength_px = 12;
-    recipe.cast_shadows = false;
-    recipe.lights.count = kLights;
-    recipe.lights.theta_deg = 60;
-    recipe.residual = {4, 6.0, 180.0, 0.3};
+    recipe.residual.strength = 0.3;
     return recipe;
-  }
-
-  void synth(const synthetic::StackRecipe& recipe) {
-    io::write_json(path("recipe.json"), synthetic::stack_recipe_to_json(recipe));
-    const tests::ProgramResult made =
-        run("synth -q --force -o " + quoted("stack") + " " + quoted("recipe.json"));
-    ASSERT_EQ(made.exit_code, 0) << made.err;
   }
 
   tests::ProgramResult bake(const std::string& folder, const std::string& options) {

@@ -6,11 +6,10 @@
 
 #include "cli/asset_files.h"
 #include "data/synthetic/stack.h"
-#include "data/synthetic/stack_recipe.h"
 #include "io/exr_rows.h"
 #include "io/image_stack_file.h"
 #include "io/realis_json.h"
-#include "tests/cli_fixture.h"
+#include "tests/cli_stack_fixture.h"
 #include "tests/json_schema.h"
 
 namespace brdfit::cli {
@@ -18,34 +17,14 @@ namespace {
 
 using testing::HasSubstr;
 
-class CliBake : public tests::CliFixture {
+class CliBake : public tests::CliStackFixture {
  protected:
-  // A matte surface with a residual that no model explains, normals and albedo given.
-  synthetic::StackRecipe recipe() const {
-    synthetic::StackRecipe recipe;
-    recipe.name = "bumps";
-    recipe.width = 24;
-    recipe.height = 20;
-    Material material(Model::kLambertGgx);
-    material.set("base_color", 0.6);
-    material.set("specular", 0.0);
-    recipe.materials = {material};
-    recipe.shape.slope = 0.4;
-    recipe.shape.wavelength_px = 16;
-    recipe.cast_shadows = false;
-    recipe.lights.count = 30;
-    recipe.lights.theta_deg = 60;
-    recipe.residual = {4, 6.0, 180.0, 0.2};
+  // Normals and albedo given.
+  static synthetic::StackRecipe recipe() {
+    synthetic::StackRecipe recipe = matte_bumps(24, 20, 30);
     recipe.files.give_normals = true;
     recipe.files.give_albedo = true;
     return recipe;
-  }
-
-  void synth(const synthetic::StackRecipe& recipe) {
-    io::write_json(path("recipe.json"), synthetic::stack_recipe_to_json(recipe));
-    const tests::ProgramResult made =
-        run("synth -q --force -o " + quoted("stack") + " " + quoted("recipe.json"));
-    ASSERT_EQ(made.exit_code, 0) << made.err;
   }
 
   tests::ProgramResult bake(const std::string& options) {

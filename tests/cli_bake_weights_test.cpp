@@ -8,10 +8,9 @@
 #include <vector>
 
 #include "data/synthetic/stack.h"
-#include "data/synthetic/stack_recipe.h"
 #include "io/exr_rows.h"
 #include "io/image_reader.h"
-#include "tests/cli_fixture.h"
+#include "tests/cli_stack_fixture.h"
 #include "tests/json_schema.h"
 #include "tests/stack_files.h"
 
@@ -23,34 +22,14 @@ using testing::HasSubstr;
 constexpr int kWidth = 24;
 constexpr int kHeight = 20;
 
-class CliBakeWeights : public tests::CliFixture {
+class CliBakeWeights : public tests::CliStackFixture {
  protected:
-  // A matte surface with a residual that no model explains, normals and albedo given.
+  // Normals and albedo given.
   static synthetic::StackRecipe recipe() {
-    synthetic::StackRecipe recipe;
-    recipe.name = "bumps";
-    recipe.width = kWidth;
-    recipe.height = kHeight;
-    Material material(Model::kLambertGgx);
-    material.set("base_color", 0.6);
-    material.set("specular", 0.0);
-    recipe.materials = {material};
-    recipe.shape.slope = 0.4;
-    recipe.shape.wavelength_px = 16;
-    recipe.cast_shadows = false;
-    recipe.lights.count = 24;
-    recipe.lights.theta_deg = 60;
-    recipe.residual = {4, 6.0, 180.0, 0.2};
+    synthetic::StackRecipe recipe = matte_bumps(kWidth, kHeight, 24);
     recipe.files.give_normals = true;
     recipe.files.give_albedo = true;
     return recipe;
-  }
-
-  void synth(const synthetic::StackRecipe& recipe) {
-    io::write_json(path("recipe.json"), synthetic::stack_recipe_to_json(recipe));
-    const tests::ProgramResult made =
-        run("synth -q --force -o " + quoted("stack") + " " + quoted("recipe.json"));
-    ASSERT_EQ(made.exit_code, 0) << made.err;
   }
 
   static std::string picture_of(const io::Json& manifest, std::size_t image) {

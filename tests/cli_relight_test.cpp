@@ -7,9 +7,8 @@
 #include <limits>
 #include <vector>
 
-#include "data/synthetic/stack_recipe.h"
 #include "io/exr_rows.h"
-#include "tests/cli_fixture.h"
+#include "tests/cli_stack_fixture.h"
 #include "tests/stack_files.h"
 
 namespace brdfit::cli {
@@ -21,32 +20,15 @@ constexpr int kWidth = 24;
 constexpr int kHeight = 80;  // more rows than are relit at once
 constexpr std::size_t kTexels = static_cast<std::size_t>(kWidth) * kHeight;
 
-class CliRelight : public tests::CliFixture {
+class CliRelight : public tests::CliStackFixture {
  protected:
-  // A matte surface with a residual that no model explains, baked once.
+  // Baked once.
   void SetUp() override {
-    synthetic::StackRecipe recipe;
-    recipe.name = "bumps";
-    recipe.width = kWidth;
-    recipe.height = kHeight;
-    Material material(Model::kLambertGgx);
-    material.set("base_color", 0.6);
-    material.set("specular", 0.0);
-    recipe.materials = {material};
-    recipe.shape.slope = 0.4;
-    recipe.shape.wavelength_px = 16;
-    recipe.cast_shadows = false;
-    recipe.lights.count = 20;
-    recipe.lights.theta_deg = 60;
-    recipe.residual = {4, 6.0, 180.0, 0.2};
-    io::write_json(path("recipe.json"), synthetic::stack_recipe_to_json(recipe));
-    for (const std::string& command :
-         {"synth -q -o " + quoted("stack") + " " + quoted("recipe.json"),
-          "bake -q --lobes 4 --base lambert --no-evidence --fade-albedo 0.2 --fade-normal 20 -o " +
-              quoted("baked") + " " + quoted("stack/bumps.olat.json")}) {
-      const tests::ProgramResult made = run(command);
-      ASSERT_EQ(made.exit_code, 0) << made.err;
-    }
+    synth(matte_bumps(kWidth, kHeight, 20));
+    const tests::ProgramResult baked =
+        run("bake -q --lobes 4 --base lambert --no-evidence --fade-albedo 0.2 --fade-normal 20 -o " +
+            quoted("baked") + " " + quoted("stack/bumps.olat.json"));
+    ASSERT_EQ(baked.exit_code, 0) << baked.err;
   }
 
   tests::ProgramResult relight(const std::string& options, const std::string& file = "relit.exr") {
