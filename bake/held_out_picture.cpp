@@ -40,22 +40,30 @@ struct Kind {
   std::vector<std::vector<RealisRange>> ranges;  // of each problem; empty where not rounded
 };
 
+// As the asset has them: channels of a texel keep the same lobes. Empty where there is nothing to share.
+std::vector<std::uint32_t> shared_masks(const BakedBy& baked, const RealisKind& kind) {
+  if (baked.block.problems.size() < 2 || kind.options.dominant == kind.lobes) return {};
+  return dominant_masks(*baked.system, baked.block.problems, baked.block.solved, kind.options.dominant);
+}
+
 Amplitudes amplitudes_of(const Kind& kind, const BakedBy& baked, const TexelBlock& block, int width) {
   if (kind.kind.is_whole()) return baked.solved();
+  const std::vector<std::uint32_t> masks = shared_masks(baked, kind.kind);
   Amplitudes out;
   for (std::size_t p = 0; p < baked.block.solved.size(); ++p) {
     out.push_back(compress_block(*baked.system, baked.block.problems[p], baked.block.solved[p].amplitudes,
-                                 block.texels, width, kind.ranges[p], kind.kind.options)
+                                 block.texels, width, kind.ranges[p], kind.kind.options, masks)
                       .amplitudes);
   }
   return out;
 }
 
-std::vector<std::vector<RealisRange>> ranges_of(const BakedBy& baked, const CompressOptions& options) {
+std::vector<std::vector<RealisRange>> ranges_of(const BakedBy& baked, const RealisKind& kind) {
+  const std::vector<std::uint32_t> masks = shared_masks(baked, kind);
   std::vector<std::vector<RealisRange>> out;
   for (std::size_t p = 0; p < baked.block.solved.size(); ++p) {
-    out.push_back(
-        code_ranges(*baked.system, baked.block.problems[p], baked.block.solved[p].amplitudes, options));
+    out.push_back(code_ranges(*baked.system, baked.block.problems[p], baked.block.solved[p].amplitudes,
+                              kind.options, masks));
   }
   return out;
 }
@@ -92,8 +100,7 @@ struct HeldOutBaker::State {
     if (baked.system) {
       const auto lobes = static_cast<int>(baked.system->lobes().size());
       const std::vector<RealisKind> all = realis_kinds("realis", lobes, true, dither);
-      for (std::size_t k = 1; k < all.size(); ++k)
-        kinds.push_back({all[k], 0, ranges_of(baked, all[k].options)});
+      for (std::size_t k = 1; k < all.size(); ++k) kinds.push_back({all[k], 0, ranges_of(baked, all[k])});
     }
     for (const Kind& kind : kinds) names.push_back(kind.kind);
   }

@@ -84,6 +84,9 @@ double largest_sum(const RealisAsset& asset, const bake::RunTimeTexels& texels) 
 struct Found {
   explicit Found(const ErrorThreshold& t) : errors(t) {}
   ErrorTally errors;
+  // Where the largest error is.
+  std::size_t worst_texel = 0;  // y * width + x
+  Vec3 worst_light;
   double largest_correction = 0.0;
   std::optional<double> device_ns = 0.0;
   std::uint64_t texels = 0;
@@ -103,13 +106,13 @@ class Verification {
     Found found({std::numeric_limits<double>::infinity(), 0.0, kAllowed});
     for (int row = 0; row < asset_.height; row += kRowsAtOnce) {
       if (interrupted()) throw std::runtime_error("interrupted");
-      compare(reader_.read(row, std::min(kRowsAtOnce, asset_.height - row)), found);
+      compare(reader_.read(row, std::min(kRowsAtOnce, asset_.height - row)), row, found);
     }
     return found;
   }
 
  private:
-  void compare(bake::RunTimeTexels texels, Found& found) {
+  void compare(bake::RunTimeTexels texels, int first_row, Found& found) {
     const std::size_t count = texels.surface.count();
     const std::vector<std::uint32_t> codes = words_of(reader_.packed_bytes());
     const std::vector<std::uint32_t> masks = masks_of(reader_.packed_bytes(), count);
@@ -135,7 +138,10 @@ class Verification {
       for (std::size_t k = 0; k < values.size(); ++k) {
         found.largest_correction = std::max(found.largest_correction, std::abs(reference[k]));
         // In units of what cancels.
-        found.errors.add(reference[k] / scale, static_cast<float>(values[k] / scale));
+        if (!found.errors.add(reference[k] / scale, static_cast<float>(values[k] / scale)).worst) continue;
+        found.worst_texel =
+            k % count + static_cast<std::size_t>(first_row) * static_cast<std::size_t>(asset_.width);
+        found.worst_light = lights_[light].direction;
       }
       found.texels += count;
     }
@@ -147,7 +153,9 @@ class Verification {
   std::vector<bake::RunTimeLight> lights_;
 };
 
-io::Json found_json(const Found& found, const VerifyRequest& request, const ComputeDevice& device) {
+io::Json found_json(const Found& found, const VerifyRequest& request, const RealisAsset& asset,
+                    const ComputeDevice& device) {
+  const auto width = static_cast<std::size_t>(asset.width);
   const LogHistogram& errors = found.errors.absolute();
   return {{"brdfit_verify_realis", 1},
           {"file", request.file},
@@ -160,6 +168,10 @@ io::Json found_json(const Found& found, const VerifyRequest& request, const Comp
           {"largest_correction", found.largest_correction},
           {"error",
            {{"median", errors.percentile(0.5)}, {"p99", errors.percentile(0.99)}, {"max", errors.maximum()}}},
+          {"worst",
+           {{"x", found.worst_texel % width},
+            {"y", found.worst_texel / width},
+            {"light", {found.worst_light.x, found.worst_light.y, found.worst_light.z}}}},
           {"over", found.errors.over()},
           {"not_finite", found.errors.not_finite()},
           {"device_ns_per_texel", found.device_ns && found.texels > 0
@@ -180,7 +192,7 @@ int verify_bake(const VerifyRequest& request, ComputeDevice& device) {
   const RealisAsset& asset = verification.asset();
   const LogHistogram& errors = found.errors.absolute();
   if (request.common.json) {
-    fmt::print("{}\n", found_json(found, request, device).dump(2));
+    fmt::print("{}\n", found_json(found, request, asset, device).dump(2));
   } else if (!request.common.quiet) {
     fmt::print("{}: {} of {} lobes in {} bits on {}{}, {} texels under {} lights\n", asset.name,
                asset.packing.dominant, asset.lobes.size(), asset.packing.bits, device.name(),
@@ -193,6 +205,10 @@ int verify_bake(const VerifyRequest& request, ComputeDevice& device) {
                found.device_ns ? fmt::format("; {:.1f} ns per texel and light on the device",
                                              *found.device_ns / static_cast<double>(found.texels))
                                : "");
+    fmt::print("worst: texel {}, {} under light {:.9g},{:.9g},{:.9g}\n",
+               found.worst_texel % static_cast<std::size_t>(asset.width),
+               found.worst_texel / static_cast<std::size_t>(asset.width), found.worst_light.x,
+               found.worst_light.y, found.worst_light.z);
     fmt::print("{} of {} values are beyond that, {} of them not finite\n", found.errors.over(),
                3 * found.texels, found.errors.not_finite());
   }
