@@ -71,7 +71,7 @@ TEST_F(CliBake, WhatIsWrittenFitsItsSchema) {
   const tests::JsonSchema schema(
       io::read_json(std::filesystem::path(BRDFIT_SOURCE_DIR) / "docs/schema/realis.schema.json"));
   for (const std::string& options :
-       {std::string("--base auto --gains --folds 3 --lobes 2"),
+       {std::string("--base auto --model lambert-ggx --gains --folds 2 --lobes 2 --sample 100"),
         std::string("--base lambert --no-evidence --lobes 2 --uniform --colour rgb")}) {
     const tests::ProgramResult baked = bake(options);
     ASSERT_EQ(baked.exit_code, 0) << baked.err;
