@@ -9,6 +9,7 @@
 #include <utility>
 
 #include "bake/gains.h"
+#include "bake/luminance.h"
 
 namespace brdfit::bake {
 namespace {
@@ -49,25 +50,6 @@ Values count_values(const TexelBlock& sample) {
   // A texel whose values all have no weight (masked) is not black but unknown.
   for (std::size_t k = 0; k < texels; ++k) found.black_texels += is_black[k] != 0 && is_seen[k] != 0 ? 1 : 0;
   return found;
-}
-
-TexelBlock thinned(const TexelBlock& block, std::size_t most) {
-  const std::size_t step = (block.count() + most - 1) / most;
-  if (step <= 1) return block;
-  TexelBlock out;
-  out.lights = block.lights;
-  out.channels = block.channels;
-  const auto thin = [step, count = block.count()](const auto& planes, auto& into) {
-    for (std::size_t from = 0; from < planes.size(); from += count) {
-      for (std::size_t k = 0; k < count; k += step) into.push_back(planes[from + k]);
-    }
-  };
-  thin(block.texels, out.texels);
-  thin(block.rgb, out.rgb);
-  thin(block.weight, out.weight);
-  thin(block.normals, out.normals);
-  thin(block.albedo, out.albedo);
-  return out;
 }
 
 std::size_t uneven_lights(const StackInfo& info, const TexelBlock& sample) {

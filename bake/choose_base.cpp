@@ -8,13 +8,13 @@
 #include <numeric>
 #include <stdexcept>
 
+#include "bake/fold_gain.h"
 #include "bake/luminance.h"
 
 namespace brdfit::bake {
 namespace {
 
-// A model must lower the error in this share of the folds, and in the mean by so many standard errors.
-constexpr double kHelpedFolds = 0.75;
+// A model must lower the error in most folds, and in their mean by so many standard errors.
 constexpr double kStandardErrors = 2.0;
 // Under fewer lights errors of folds say too little about a light that is not like the others: where
 // there are 12, one of them can decide, whatever rule is applied to the other 11.
@@ -111,24 +111,11 @@ std::vector<std::optional<Material>> starts_of(const StackInfo& info, const Texe
   return starts;
 }
 
-double sum(const std::vector<double>& values) {
-  return std::accumulate(values.begin(), values.end(), 0.0);
-}
-
 // Whether the error falls in most folds, and in their mean by more than the chance of which lights were held
 // out: with few lights one fold can decide by far.
 bool is_surely_better(const BaseCandidate& candidate, const BaseCandidate& than) {
-  const auto folds = static_cast<double>(than.fold_errors.size());
-  const double mean = (sum(than.fold_errors) - sum(candidate.fold_errors)) / folds;
-  double squares = 0.0;
-  double helped = 0.0;
-  for (std::size_t f = 0; f < than.fold_errors.size(); ++f) {
-    const double gain = than.fold_errors[f] - candidate.fold_errors[f];
-    if (gain > 0.0) helped += 1.0;
-    squares += (gain - mean) * (gain - mean);
-  }
-  const double error = std::sqrt(squares / (folds * std::max(folds - 1.0, 1.0)));
-  return helped >= kHelpedFolds * folds && mean > kStandardErrors * error;
+  const FoldGain gain = fold_gain(candidate.fold_errors, than.fold_errors);
+  return gain.helped >= kHelpedFolds && gain.mean > kStandardErrors * gain.standard_error;
 }
 
 std::size_t best_of(const std::vector<BaseCandidate>& candidates, double margin) {

@@ -11,6 +11,7 @@
 #include <tuple>
 #include <utility>
 
+#include "bake/fold_gain.h"
 #include "bake/ridge.h"
 #include "bake/solve.h"
 
@@ -21,14 +22,8 @@ namespace {
 constexpr std::size_t kLightsPerSearchedLobe = 6;
 // Steps of a fold's search.
 constexpr int kFoldIterations = 25;
-// Lobes must help in this share of the folds: where they fail they may fail by far.
-constexpr double kHelpedFolds = 0.75;
 // Gains of a smaller share of the squared error are not worth a texture.
 constexpr double kLeastGain = 2e-3;
-
-double sum(const std::vector<double>& values) {
-  return std::accumulate(values.begin(), values.end(), 0.0);
-}
 
 std::vector<Vec3> chosen(std::span<const Vec3> directions, std::span<const std::size_t> lights) {
   std::vector<Vec3> out;
@@ -73,17 +68,9 @@ double held_out_error(const LobeSet& lobes, const Part& training, const Part& he
 
 // Whether candidates leave less than no lobes do, by more than the chance of which lights were held out.
 bool gains(const Candidate& candidate, const std::vector<double>& without) {
-  const auto folds = static_cast<double>(without.size());
-  const double mean = (sum(without) - candidate.error()) / folds;
-  double squares = 0.0;
-  double helped = 0.0;
-  for (std::size_t f = 0; f < without.size(); ++f) {
-    const double gain = without[f] - candidate.errors[f];
-    if (gain > 0.0) helped += 1.0;
-    squares += (gain - mean) * (gain - mean);
-  }
-  const double error = std::sqrt(squares / (folds * std::max(folds - 1.0, 1.0)));
-  return helped >= kHelpedFolds * folds && mean > std::max(error, kLeastGain * sum(without) / folds);
+  const FoldGain gain = fold_gain(candidate.errors, without);
+  const double least = kLeastGain * sum(without) / static_cast<double>(without.size());
+  return gain.helped >= kHelpedFolds && gain.mean > std::max(gain.standard_error, least);
 }
 
 // The better kind of each number, then the smallest number that is about as good as the best. Null: none

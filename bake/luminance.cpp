@@ -31,6 +31,15 @@ TexelBlock chosen_texels(const TexelBlock& block, std::span<const std::uint32_t>
   return out;
 }
 
+TexelBlock thinned(const TexelBlock& block, std::size_t at_most) {
+  if (block.count() <= at_most) return block;
+  std::vector<std::uint32_t> places;
+  for (std::size_t k = 0; k < at_most; ++k) {
+    places.push_back(static_cast<std::uint32_t>(k * block.count() / at_most));
+  }
+  return chosen_texels(block, places);
+}
+
 Surface chosen_texels(const Surface& surface, std::span<const std::uint32_t> places) {
   Surface out;
   out.normals = chosen_columns(surface.normals, surface.count(), places);

@@ -16,6 +16,8 @@ inline constexpr std::array<double, 3> kLuminance = {0.2126, 0.7152, 0.0722};  /
 // Texels of a block or a surface by their place in it.
 TexelBlock chosen_texels(const TexelBlock& block, std::span<const std::uint32_t> places);
 Surface chosen_texels(const Surface& surface, std::span<const std::uint32_t> places);
+// That many texels of a block or fewer, spread evenly.
+TexelBlock thinned(const TexelBlock& block, std::size_t at_most);
 
 // Root of the mean squared difference of luminances between a block and a render of these lights
 // ([light][channel][texel]), values weighted as in the block; 0 where nothing has weight.

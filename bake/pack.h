@@ -12,6 +12,8 @@
 #include <span>
 #include <vector>
 
+#include "brdf/realis.h"
+
 namespace brdfit::bake {
 
 // How many of what an asset's textures hold.
@@ -24,8 +26,8 @@ struct PackLayout {
   std::vector<int> zeros;
 
   int slots() const { return dominant * channels; }
-  int slots_per_texture() const { return bits == 4 ? 8 : 4; }
-  int textures() const { return (slots() + slots_per_texture() - 1) / slots_per_texture(); }
+  int slots_per_texture() const { return realis_slots_per_texture(bits); }
+  int textures() const { return realis_textures(slots(), bits); }
   // Bytes per texel of the mask's picture: 1, 3 (up to 24 lobes; the third is 0 up to 16); 0 where all lobes
   // are kept.
   int mask_channels() const { return dominant == lobes ? 0 : lobes <= 8 ? 1 : 3; }

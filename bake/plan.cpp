@@ -172,15 +172,6 @@ void choose_open_lobes(BakePlan& plan, const ProblemOf& problem_of, std::span<co
 // Choices are made on so many texels; more of them say little that is new.
 constexpr std::size_t kChoiceTexels = 4096;
 
-TexelBlock thinned(const TexelBlock& block, std::size_t at_most) {
-  if (block.count() <= at_most) return block;
-  std::vector<std::uint32_t> places;
-  for (std::size_t k = 0; k < at_most; ++k) {
-    places.push_back(static_cast<std::uint32_t>(k * block.count() / at_most));
-  }
-  return chosen_texels(block, places);
-}
-
 // The least that would have been baked.
 std::size_t lobes_asked_for(const BakeSettings& settings) {
   if (settings.given_lobes) return settings.given_lobes->size();

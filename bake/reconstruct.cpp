@@ -18,7 +18,7 @@ double at(std::span<const float> planes, std::size_t plane, std::size_t count, s
 }
 
 // A stack of this one light, so that the base model is rendered by the code that baked.
-StackInfo stack_of(const RealisAsset& asset, const RunTimeLight& light) {
+StackInfo stack_of(const RealisAsset& asset, const RealisLight& light) {
   StackInfo info;
   info.name = asset.name;
   info.width = asset.width;
@@ -53,7 +53,7 @@ void check(const RealisAsset& asset, const RunTimeTexels& texels) {
 }  // namespace
 
 std::vector<double> correction(const RealisAsset& asset, const RunTimeTexels& texels,
-                               const RunTimeLight& light) {
+                               const RealisLight& light) {
   check(asset, texels);
   const std::size_t count = texels.surface.count();
   const bool is_rgb = asset.colour == RealisColour::kRgb;
@@ -79,7 +79,7 @@ std::vector<double> correction(const RealisAsset& asset, const RunTimeTexels& te
   return out;
 }
 
-Relit relight(const RealisAsset& asset, const RunTimeTexels& texels, const RunTimeLight& light) {
+Relit relight(const RealisAsset& asset, const RunTimeTexels& texels, const RealisLight& light) {
   const std::vector<double> added = correction(asset, texels, light);
   const std::size_t count = texels.surface.count();
   const StackInfo info = stack_of(asset, light);

@@ -11,13 +11,6 @@
 
 namespace brdfit::bake {
 
-// One directional light. intensity: linear RGB; a white Lambert surface that faces a light of 1 has
-// radiance 1.
-struct RunTimeLight {
-  Vec3 direction;  // unit, towards the light
-  Rgb intensity{1.0, 1.0, 1.0};
-};
-
 // What the renderer has of some texels: its own surface, what the bake saw of it, and amplitudes.
 struct RunTimeTexels {
   Surface surface;                // at run time: state is not looked at
@@ -34,11 +27,11 @@ struct Relit {
 // What Realis adds to the render: modulation x fade x sum over lobes, [channel][texel]; 0 where a texel faces
 // away. Throws std::invalid_argument where sizes disagree.
 std::vector<double> correction(const RealisAsset& asset, const RunTimeTexels& texels,
-                               const RunTimeLight& light);
+                               const RealisLight& light);
 
 // Every value is finite. Where nothing fades, the result is what the amplitudes were solved for. Throws
 // std::invalid_argument where sizes disagree.
-Relit relight(const RealisAsset& asset, const RunTimeTexels& texels, const RunTimeLight& light);
+Relit relight(const RealisAsset& asset, const RunTimeTexels& texels, const RealisLight& light);
 
 }  // namespace brdfit::bake
 

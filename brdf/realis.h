@@ -36,6 +36,14 @@ constexpr int realis_top_code(int bits) {
   return (1 << bits) - 1;
 }
 
+// Amplitudes in one RGBA texture of 8 bits: one or two to a byte. And textures for that many per texel.
+constexpr int realis_slots_per_texture(int bits) {
+  return bits == 4 ? 8 : 4;
+}
+constexpr int realis_textures(int slots, int bits) {
+  return (slots + realis_slots_per_texture(bits) - 1) / realis_slots_per_texture(bits);
+}
+
 // The lobe's value for a light in that direction (unit, towards the light), in [0, 1].
 inline double eval(const Lobe& lobe, const Vec3& direction) {
   const double cos_axis = lobe.axis.x * direction.x + lobe.axis.y * direction.y + lobe.axis.z * direction.z;

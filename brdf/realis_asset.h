@@ -37,6 +37,13 @@ struct RealisFade {
   double normal_range_deg = 30.0;
 };
 
+// One directional light at run time. intensity: linear RGB; a white Lambert surface that faces a light of 1
+// has radiance 1.
+struct RealisLight {
+  Vec3 direction;  // unit, towards the light
+  Rgb intensity{1.0, 1.0, 1.0};
+};
+
 // Names of the asset's files, in the folder of its JSON. Those that are empty were not written.
 struct RealisFiles {
   std::string amplitudes;           // EXR, channels realis_channel_names(); before any rounding to codes
@@ -71,7 +78,9 @@ struct RealisAsset {
     return static_cast<std::size_t>(width) * static_cast<std::size_t>(height);
   }
   // Amplitudes per texel: lobes, times three for kRgb.
-  std::size_t plane_count() const { return lobes.size() * (colour == RealisColour::kRgb ? 3 : 1); }
+  std::size_t plane_count() const { return lobes.size() * static_cast<std::size_t>(channels()); }
+  // Amplitudes of a lobe: 3 for kRgb.
+  int channels() const { return colour == RealisColour::kRgb ? 3 : 1; }
   // Bytes per texel of what is needed at run time: codes and the mask of dominant lobes; for kScaledChroma
   // its factors (3 halves) too. Properties that the renderer has anyway are not counted.
   double bytes_per_texel() const;

@@ -39,7 +39,7 @@ void require_not_negative(const std::vector<double>& values, const std::string& 
   }
 }
 
-bake::RunTimeLight light_of(const Arguments& a) {
+RealisLight light_of(const Arguments& a) {
   require_not_negative(a.intensity, "--intensity");
   const double length = std::hypot(a.light[0], a.light[1], a.light[2]);
   if (!(length > 0.0) || !std::isfinite(length)) throw UsageError("--light is no direction");
@@ -65,7 +65,7 @@ void write_relit(const std::filesystem::path& file, const render::Image& image, 
 
 int run(const Arguments& a) {
   const ThreadLimit threads(a.common.threads);
-  const bake::RunTimeLight light = light_of(a);
+  const RealisLight light = light_of(a);
   const RealisAsset asset = io::read_realis(a.asset);
   const std::filesystem::path file = a.output.empty() ? asset.name + ".relit.png" : a.output;
   prepare_output(file, a.common.force);

@@ -28,10 +28,10 @@ constexpr double kAllowed = 1e-6;
 constexpr float kOtherAlbedo = 0.8F;
 
 // Rounded to float, as the device has them.
-std::vector<bake::RunTimeLight> lights_of(std::uint64_t seed) {
+std::vector<RealisLight> lights_of(std::uint64_t seed) {
   std::mt19937_64 random(seed);
   std::uniform_real_distribution<double> uniform(0.0, 1.0);
-  std::vector<bake::RunTimeLight> lights;
+  std::vector<RealisLight> lights;
   for (int k = 0; k < kLights; ++k) {
     const double z = uniform(random);
     const double phi = 2.0 * std::numbers::pi * uniform(random);
@@ -131,8 +131,7 @@ class Verification {
                                  texels.baked.normals,
                                  texels.baked.albedo,
                                  texels.chroma};
-      const auto ns =
-          pass_.correction(asset_, view, {lights_[light].direction, lights_[light].intensity}, values);
+      const auto ns = pass_.correction(asset_, view, lights_[light], values);
       found.device_ns = ns && found.device_ns ? std::optional(*found.device_ns + *ns) : std::nullopt;
       const std::vector<double> reference = bake::correction(asset_, texels, lights_[light]);
       for (std::size_t k = 0; k < values.size(); ++k) {
@@ -150,7 +149,7 @@ class Verification {
   RealisAsset asset_;
   AssetReader reader_;
   RealisPass pass_;
-  std::vector<bake::RunTimeLight> lights_;
+  std::vector<RealisLight> lights_;
 };
 
 io::Json found_json(const Found& found, const VerifyRequest& request, const RealisAsset& asset,

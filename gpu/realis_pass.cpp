@@ -27,14 +27,9 @@ struct PushConstants {
 
 constexpr std::size_t kSurfacePlanes = 12;
 
-int channels_of(const RealisAsset& asset) {
-  return asset.colour == RealisColour::kRgb ? 3 : 1;
-}
-
 std::size_t textures_of(const RealisAsset& asset) {
-  const int per_texture = asset.packing.bits == 4 ? 8 : 4;
-  return static_cast<std::size_t>((asset.packing.dominant * channels_of(asset) + per_texture - 1) /
-                                  per_texture);
+  return static_cast<std::size_t>(
+      realis_textures(asset.packing.dominant * asset.channels(), asset.packing.bits));
 }
 
 bool keeps_all(const RealisAsset& asset) {
@@ -104,7 +99,7 @@ const ComputePipeline& RealisPass::pipeline_for(const RealisAsset& asset) {
   const Key key = {static_cast<std::int32_t>(asset.lobes.size()),
                    asset.packing.dominant,
                    asset.packing.bits,
-                   channels_of(asset),
+                   asset.channels(),
                    asset.colour == RealisColour::kScaledChroma ? 1 : 0,
                    asset.albedo_in_modulation ? 1 : 0};
   const auto found = pipelines_.find(key);

@@ -26,12 +26,6 @@ struct RealisTexels {
   std::span<const float> chroma;  // 3 planes for scaled chroma, otherwise empty
 };
 
-// One directional light.
-struct RealisLight {
-  Vec3 direction;  // unit, towards the light
-  Rgb intensity{1.0, 1.0, 1.0};
-};
-
 // Corrects texels on a device. How many lobes, bits and channels are specialisation constants; pipelines are
 // made when first needed and kept.
 class RealisPass {
