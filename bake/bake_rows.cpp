@@ -50,11 +50,16 @@ NoiseOf noise_of(const TexelBlock& block, std::size_t lobes, int width) {
   return [&block, lobes, width](std::size_t first, std::size_t count, std::vector<float>& noise) {
     noise.resize(lobes * count);
     const auto wide = static_cast<std::uint32_t>(width);
+    std::vector<std::uint32_t> x(count);
+    std::vector<std::uint32_t> y(count);
     for (std::size_t k = 0; k < count; ++k) {
-      const std::uint32_t y = block.texels[first + k] / wide;
-      const std::uint32_t x = block.texels[first + k] - y * wide;
-      for (std::size_t lobe = 0; lobe < lobes; ++lobe) {
-        noise[lobe * count + k] = static_cast<float>(dither_threshold(x, y, static_cast<int>(lobe)));
+      y[k] = block.texels[first + k] / wide;
+      x[k] = block.texels[first + k] - y[k] * wide;
+    }
+    for (std::size_t lobe = 0; lobe < lobes; ++lobe) {
+      float* to = noise.data() + lobe * count;
+      for (std::size_t k = 0; k < count; ++k) {
+        to[k] = static_cast<float>(dither_threshold(x[k], y[k], static_cast<int>(lobe)));
       }
     }
   };

@@ -135,11 +135,4 @@ std::vector<int> quantise(const TexelEquations& equations, const Quantiser& quan
   return codes;
 }
 
-double dither_threshold(std::uint32_t x, std::uint32_t y, int lobe) {
-  const double shifted = static_cast<double>(x) + 5.588238 * lobe;
-  const double inner = 0.06711056 * shifted + 0.00583715 * static_cast<double>(y);
-  const double noise = 52.9829189 * (inner - std::floor(inner));
-  return noise - std::floor(noise) - 0.5;
-}
-
 }  // namespace brdfit::bake
