@@ -1,6 +1,7 @@
 // Pictures read for nothing.
 #include "io/decode_floor.h"
 
+#include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 #include <unistd.h>
 
@@ -20,24 +21,32 @@ constexpr int kRowsAtOnce = 16;
 // Of the memory that is free, and of the folder: others need some too.
 constexpr double kShare = 0.5;
 
+void decode(const std::filesystem::path& file) {
+  ImageReader reader(file);
+  const ImageHeader& header = reader.header();
+  std::vector<std::byte> rows(kRowsAtOnce * header.row_bytes());
+  for (int first = 0; first < header.height; first += kRowsAtOnce) {
+    const int count = std::min(kRowsAtOnce, header.height - first);
+    reader.read_native(first, count,
+                       std::span(rows).first(static_cast<std::size_t>(count) * header.row_bytes()));
+  }
+}
+
 }  // namespace
 
 void decode_all(const StackSource& source) {
+  // Maps of floats take longest: begun last, they would leave the other cores idle.
   std::vector<std::filesystem::path> files;
-  for (const StackPicture& picture : source.pictures) files.push_back(picture.file);
   for (const auto& frame : {source.dark, source.flat, source.mask, source.normals, source.albedo}) {
     if (frame) files.push_back(*frame);
   }
-  tbb::parallel_for(std::size_t{0}, files.size(), [&](std::size_t k) {
-    ImageReader reader(files[k]);
-    const ImageHeader& header = reader.header();
-    std::vector<std::byte> rows(kRowsAtOnce * header.row_bytes());
-    for (int first = 0; first < header.height; first += kRowsAtOnce) {
-      const int count = std::min(kRowsAtOnce, header.height - first);
-      reader.read_native(first, count,
-                         std::span(rows).first(static_cast<std::size_t>(count) * header.row_bytes()));
-    }
-  });
+  for (const StackPicture& picture : source.pictures) files.push_back(picture.file);
+  tbb::parallel_for(
+      tbb::blocked_range<std::size_t>(0, files.size(), 1),
+      [&](const auto& some) {
+        for (std::size_t k = some.begin(); k < some.end(); ++k) decode(files[k]);
+      },
+      tbb::simple_partitioner());
 }
 
 bool pays_to_spill(const StackSource& source) {

@@ -6,6 +6,7 @@
 #include <sys/resource.h>
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
+#include <tbb/parallel_invoke.h>
 
 #include <algorithm>
 #include <cmath>
@@ -95,8 +96,10 @@ class FileStack::Impl {
     std::iota(block.texels.begin(), block.texels.end(),
               static_cast<std::uint32_t>(static_cast<std::size_t>(first) * width));
     const PixelChoice choice = {first, rows, {}};
-    FrameValues frames = frames_->read(choice);
-    const std::vector<Unusable> unusable = read_pictures(block, frames, output, first, rows);
+    FrameValues frames = frames_->read_correction(choice);
+    std::vector<Unusable> unusable;
+    tbb::parallel_invoke([&] { frames_->read_surface(frames, choice); },
+                         [&] { unusable = read_pictures(block, frames, output, first, rows); });
     finish(block, frames, unusable);
     weights_->weigh(block, choice);
     if (rows > 0) count(first, rows, frames, unusable);

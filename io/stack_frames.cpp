@@ -1,6 +1,8 @@
 // Reading frames beside the pictures.
 #include "io/stack_frames.h"
 
+#include <tbb/parallel_invoke.h>
+
 #include <algorithm>
 
 #include "io/error.h"
@@ -83,7 +85,7 @@ void StackFrames::add_normals(FrameValues& values, const PixelChoice& choice) {
   }
 }
 
-FrameValues StackFrames::read(const PixelChoice& choice) {
+FrameValues StackFrames::read_correction(const PixelChoice& choice) {
   FrameValues values;
   const std::size_t count = choice.count(width_);
   if (mask_ || flat_ || normals_) values.blocked.assign(count, 0);
@@ -96,8 +98,22 @@ FrameValues StackFrames::read(const PixelChoice& choice) {
     }
   }
   correct(values, choice);
-  if (normals_) add_normals(values, choice);
-  if (albedo_) values.albedo = albedo_->values(choice);
+  return values;
+}
+
+void StackFrames::read_surface(FrameValues& values, const PixelChoice& choice) {
+  tbb::parallel_invoke(
+      [&] {
+        if (albedo_) values.albedo = albedo_->values(choice);
+      },
+      [&] {
+        if (normals_) add_normals(values, choice);
+      });
+}
+
+FrameValues StackFrames::read(const PixelChoice& choice) {
+  FrameValues values = read_correction(choice);
+  read_surface(values, choice);
   return values;
 }
 

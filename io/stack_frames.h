@@ -33,6 +33,11 @@ class StackFrames {
   // In order from top to bottom.
   FrameValues read(const PixelChoice& choice);
 
+  // The same in two parts, so that pictures can be read beside the second: what they are corrected by and the
+  // mask; then normals and albedo.
+  FrameValues read_correction(const PixelChoice& choice);
+  void read_surface(FrameValues& values, const PixelChoice& choice);
+
   bool has_normals() const { return normals_.has_value(); }
   bool has_albedo() const { return albedo_.has_value(); }
 
