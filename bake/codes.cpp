@@ -28,61 +28,93 @@ double Quantiser::amplitude(std::size_t lobe, int code) const {
 class CodeSearch::Walk {
  public:
   Walk(const CodeSearch& texel, const Quantiser& quantiser, const LobeVector& goal, int steps)
-      : texel_(texel), quantiser_(quantiser), goal_(goal), steps_left_(steps) {}
-
-  void choose(Eigen::Index k, double error) {
-    if (k < 0) {
-      least_ = error;
-      found_ = codes_;
+      : feedback_(texel.feedback_),
+        weights_(texel.weights_),
+        goal_(goal),
+        places_(static_cast<std::size_t>(goal.size())),
+        steps_left_(steps) {
+    for (std::size_t place = 0; place < places_; ++place) {
+      const auto lobe = static_cast<std::size_t>(texel.lobes_[place]);
+      const RealisRange& range = quantiser.ranges[lobe];
+      grid_[place] = {range.step, static_cast<double>(range.zero),
+                      static_cast<double>(quantiser.smallest_code(lobe)),
+                      static_cast<double>(quantiser.largest_code(lobe))};
+    }
+    if (places_ == 0) {
+      least_ = 0.0;
       return;
     }
-    if (steps_left_ <= 0 && least_ < std::numeric_limits<double>::infinity()) return;
-    --steps_left_;
-    const auto place = static_cast<std::size_t>(k);
-    const auto lobe = static_cast<std::size_t>(texel_.lobes_[place]);
-    double target = goal_[k];
-    for (Eigen::Index j = k + 1; j < goal_.size(); ++j)
-      target -= texel_.feedback_(k, j) * moved_[static_cast<std::size_t>(j)];
-    const double step = quantiser_.ranges[lobe].step;
-    if (!(step > 0.0)) {
-      take(k, 0, 0.0, error + texel_.weights_[k] * target * target);
-      return;
-    }
-    const double position = target / step;
-    const int smallest = quantiser_.smallest_code(lobe);
-    const int largest = quantiser_.largest_code(lobe);
-    int below = static_cast<int>(
-        std::clamp(std::floor(position + 0.5), static_cast<double>(smallest), static_cast<double>(largest)));
-    int above = below + 1;
-    while (below >= smallest || above <= largest) {
-      const bool down = above > largest || (below >= smallest && position - below <= above - position);
-      const int code = down ? below-- : above++;
-      const double off = (code - position) * step;
-      const double next = error + texel_.weights_[k] * off * off;
-      if (!(next < least_)) return;
-      take(k, code, quantiser_.amplitude(lobe, code), next);
-    }
+    std::copy_n(goal.data(), places_, target_[places_ - 1].begin());
+    choose(places_ - 1, 0.0);
   }
 
   double least() const { return least_; }
-  int code(std::size_t place) const { return found_[place]; }
+  int code(std::size_t place) const { return static_cast<int>(found_[place]); }
 
  private:
-  void take(Eigen::Index k, int code, double amplitude, double error) {
-    const auto place = static_cast<std::size_t>(k);
-    codes_[place] = code;
-    moved_[place] = amplitude - goal_[k];
+  // Codes of a lobe, as doubles: nothing here leaves them.
+  struct Grid {
+    double step, zero, smallest, largest;
+  };
+
+  void choose(std::size_t k, double error) {
+    if (steps_left_ <= 0 && least_ < std::numeric_limits<double>::infinity()) return;
+    --steps_left_;
+    const Grid& grid = grid_[k];
+    const double target = target_[k][k];
+    const double weight = weights_[static_cast<Eigen::Index>(k)];
+    if (!(grid.step > 0.0)) {
+      take(k, 0.0, 0.0, error + weight * target * target);
+      return;
+    }
+    const double position = target / grid.step;
+    double below = nearest(std::clamp(position, grid.smallest, grid.largest));
+    double above = below + 1.0;
+    while (below >= grid.smallest || above <= grid.largest) {
+      const bool down =
+          above > grid.largest || (below >= grid.smallest && position - below <= above - position);
+      const double code = down ? below-- : above++;
+      const double off = (code - position) * grid.step;
+      const double next = error + weight * off * off;
+      if (!(next < least_)) return;
+      take(k, code, kernel::realis_amplitude(code + grid.zero, grid.zero, grid.step), next);
+    }
+  }
+
+  // Of numbers far below 2^31. The library's function is a call for every machine that may run this.
+  static double nearest(double x) {
+    const double cut = static_cast<double>(static_cast<int>(x));
+    return cut + (x - cut >= 0.5 ? 1.0 : 0.0) - (x - cut < -0.5 ? 1.0 : 0.0);
+  }
+
+  // Lobe k gets a code; the best values of those before it follow.
+  void take(std::size_t k, double code, double amplitude, double error) {
+    codes_[k] = code;
+    if (k == 0) {
+      least_ = error;
+      std::copy_n(codes_.begin(), places_, found_.begin());
+      return;
+    }
+    const auto place = static_cast<Eigen::Index>(k);
+    const double moved = amplitude - goal_[place];
+    const double* column = &feedback_(0, place);
+    const double* before = target_[k].data();
+    double* after = target_[k - 1].data();
+    for (std::size_t j = 0; j < k; ++j) after[j] = before[j] - column[j] * moved;
     choose(k - 1, error);
   }
 
-  const CodeSearch& texel_;
-  const Quantiser& quantiser_;
+  const LobeMatrix& feedback_;
+  const LobeVector& weights_;
   const LobeVector& goal_;
+  std::size_t places_;
   int steps_left_;
   double least_ = std::numeric_limits<double>::infinity();
-  std::array<int, kMaxLobes> codes_{};
-  std::array<int, kMaxLobes> found_{};
-  std::array<double, kMaxLobes> moved_{};  // what rounding adds to amplitudes
+  std::array<Grid, kMaxLobes> grid_;
+  // Of row k, the first k + 1: best values of the lobes up to k when those after it have their codes.
+  std::array<std::array<double, kMaxLobes>, kMaxLobes> target_;
+  std::array<double, kMaxLobes> codes_;
+  std::array<double, kMaxLobes> found_;
 };
 
 CodeSearch::CodeSearch(const TexelEquations& equations, std::uint32_t mask)
@@ -98,8 +130,7 @@ CodeSearch::CodeSearch(const TexelEquations& equations, std::uint32_t mask)
 double CodeSearch::find(const Quantiser& quantiser, const LobeVector& shift, int steps,
                         std::span<int> codes) const {
   const LobeVector goal = shift.size() > 0 ? LobeVector(best_ + shift) : best_;
-  Walk walk(*this, quantiser, goal, steps);
-  walk.choose(best_.size() - 1, 0.0);
+  const Walk walk(*this, quantiser, goal, steps);
   std::fill(codes.begin(), codes.end(), 0);
   for (std::size_t k = 0; k < lobes_.size(); ++k) codes[static_cast<std::size_t>(lobes_[k])] = walk.code(k);
   return walk.least();
@@ -115,8 +146,7 @@ LobeVector CodeSearch::dither(const Quantiser& quantiser, std::span<const double
     const auto lobe = static_cast<std::size_t>(lobes_[k]);
     spread[static_cast<Eigen::Index>(k)] = noise[lobe] * quantiser.ranges[lobe].step;
   }
-  Walk walk(*this, unlimited, spread, steps);
-  walk.choose(best_.size() - 1, 0.0);
+  const Walk walk(*this, unlimited, spread, steps);
   LobeVector left = spread;
   for (std::size_t k = 0; k < lobes_.size(); ++k) {
     left[static_cast<Eigen::Index>(k)] -=

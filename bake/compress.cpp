@@ -3,6 +3,7 @@
 
 #include <Eigen/Cholesky>
 #include <stdexcept>
+#include <vector>
 
 namespace brdfit::bake {
 namespace {
@@ -46,15 +47,31 @@ LobeVector solve(const TexelEquations& equations) {
 
 namespace {
 
-// Adds to `losses` what each lobe's going would add to the error: a_k^2 / (A^-1)_kk.
-void add_losses(const TexelEquations& equations, const std::vector<int>& kept, LobeVector& losses) {
-  const TexelEquations part = restricted(equations, kept);
-  const auto size = static_cast<Eigen::Index>(kept.size());
-  const auto factor = part.a.llt();
-  const LobeVector amplitudes = factor.solve(part.b);
-  const LobeMatrix inverse = factor.solve(LobeMatrix::Identity(size, size));
-  losses.array() += amplitudes.array().square() / inverse.diagonal().array();
-}
+// A texel's best amplitudes with ever fewer lobes. Leaving a lobe out is a step of Gauss and Jordan's
+// elimination on the inverse, so none is taken twice.
+class Elimination {
+ public:
+  explicit Elimination(const TexelEquations& equations) {
+    const Eigen::Index count = equations.b.size();
+    const TexelEquations all = restricted(equations, lobes_of(all_lobes(count), count));
+    const auto factor = all.a.llt();
+    best_ = factor.solve(all.b);
+    inverse_ = factor.solve(LobeMatrix::Identity(count, count));
+  }
+
+  // What the lobe's going would add to the error: a_k^2 / (A^-1)_kk.
+  double loss(Eigen::Index lobe) const { return best_[lobe] * best_[lobe] / inverse_(lobe, lobe); }
+
+  void drop(Eigen::Index lobe) {
+    const LobeVector column = inverse_.col(lobe) / inverse_(lobe, lobe);
+    best_ -= column * best_[lobe];
+    inverse_ -= column * inverse_.row(lobe);
+  }
+
+ private:
+  LobeVector best_;
+  LobeMatrix inverse_;
+};
 
 }  // namespace
 
@@ -62,16 +79,23 @@ std::uint32_t dominant_mask(std::span<const TexelEquations> channels, int count)
   if (count < 0) throw std::invalid_argument("dominant_mask: a negative number of lobes");
   if (channels.empty()) throw std::invalid_argument("dominant_mask: no equations");
   const Eigen::Index lobes = channels[0].b.size();
-  std::vector<int> kept = lobes_of(all_lobes(lobes), lobes);
-  while (static_cast<int>(kept.size()) > count) {
-    LobeVector losses = LobeVector::Zero(static_cast<Eigen::Index>(kept.size()));
-    for (const TexelEquations& equations : channels) add_losses(equations, kept, losses);
-    Eigen::Index least = 0;
-    losses.minCoeff(&least);
-    kept.erase(kept.begin() + least);
+  std::uint32_t mask = all_lobes(lobes);
+  if (count >= lobes) return mask;
+  std::vector<Elimination> eliminations(channels.begin(), channels.end());
+  for (Eigen::Index kept = lobes; kept > count; --kept) {
+    Eigen::Index least = -1;
+    double least_loss = 0.0;
+    for (Eigen::Index lobe = 0; lobe < lobes; ++lobe) {
+      if ((mask >> lobe & 1U) == 0) continue;
+      double loss = 0.0;
+      for (const Elimination& channel : eliminations) loss += channel.loss(lobe);
+      if (least >= 0 && !(loss < least_loss)) continue;
+      least = lobe;
+      least_loss = loss;
+    }
+    for (Elimination& channel : eliminations) channel.drop(least);
+    mask &= ~(1U << static_cast<unsigned>(least));
   }
-  std::uint32_t mask = 0;
-  for (const int lobe : kept) mask |= 1U << static_cast<unsigned>(lobe);
   return mask;
 }
 

@@ -45,26 +45,61 @@ std::vector<std::uint32_t> dominant_masks(const LobeSystem& system, std::span<co
   return masks;
 }
 
+namespace {
+
+// Sums over lights of products of lobes, below and on the diagonal by rows, and of lobes times residuals.
+struct Sums {
+  std::array<double, kMaxLobes*(kMaxLobes + 1) / 2> products{};
+  LobeVector right;
+
+  // products, values: of the light.
+  void add(double squared, const double* light_products, double weighted, const double* values) {
+    const auto lobes = static_cast<std::size_t>(right.size());
+    for (std::size_t k = 0; k < lobes * (lobes + 1) / 2; ++k) products[k] += squared * light_products[k];
+    for (std::size_t k = 0; k < lobes; ++k) right[static_cast<Eigen::Index>(k)] += weighted * values[k];
+  }
+
+  TexelEquations equations(double penalty) const {
+    const Eigen::Index lobes = right.size();
+    TexelEquations out{LobeMatrix(lobes, lobes), right};
+    std::size_t entry = 0;
+    for (Eigen::Index i = 0; i < lobes; ++i) {
+      for (Eigen::Index j = 0; j <= i; ++j) out.a(i, j) = out.a(j, i) = products[entry++];
+      out.a(i, i) += penalty;
+    }
+    return out;
+  }
+};
+
+}  // namespace
+
 TexelEquations texel_equations(const LobeSystem& system, const TexelProblem& problem, std::size_t texel) {
-  const auto lobes = static_cast<Eigen::Index>(system.lobes().size());
-  TexelEquations equations{LobeMatrix::Zero(lobes, lobes), LobeVector::Zero(lobes)};
-  LobeVector values(lobes);
+  const std::size_t lobes = system.lobes().size();
+  Sums sums;
+  sums.right = LobeVector::Zero(static_cast<Eigen::Index>(lobes));
+  std::array<double, kMaxLobes> values{};
+  std::array<double, kMaxLobes*(kMaxLobes + 1) / 2> products{};
   for (std::size_t light = 0; light < problem.lights; ++light) {
     const double modulation = static_cast<double>(problem.modulation[problem.at(light, texel)]);
     const double weight = static_cast<double>(problem.weight_of(light, texel)) * modulation;
     if (weight == 0.0) continue;
+    const double residual = static_cast<double>(problem.residual[problem.at(light, texel)]);
+    const auto column = static_cast<Eigen::Index>(light);
+    const double* of_light = products.data();
     if (problem.directions.empty()) {
-      values = system.basis().row(static_cast<Eigen::Index>(light)).transpose();
+      of_light = &system.products()(0, column);
+      for (std::size_t k = 0; k < lobes; ++k)
+        values[k] = system.basis()(column, static_cast<Eigen::Index>(k));
     } else {
       const Vec3 direction = problem.direction(light, texel, system.directions()[light]);
-      for (Eigen::Index k = 0; k < lobes; ++k)
-        values[k] = eval(system.lobes()[static_cast<std::size_t>(k)], direction);
+      for (std::size_t k = 0, entry = 0; k < lobes; ++k) {
+        values[k] = eval(system.lobes()[k], direction);
+        for (std::size_t j = 0; j <= k; ++j) products[entry++] = values[k] * values[j];
+      }
     }
-    equations.a.noalias() += weight * modulation * values * values.transpose();
-    equations.b += weight * static_cast<double>(problem.residual[problem.at(light, texel)]) * values;
+    sums.add(weight * modulation, of_light, weight * residual, values.data());
   }
-  equations.a.diagonal().array() += system.penalty();
-  return equations;
+  return sums.equations(system.penalty());
 }
 
 std::vector<RealisRange> code_ranges(const LobeSystem& system, const TexelProblem& problem,

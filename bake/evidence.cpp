@@ -241,19 +241,26 @@ class Predictor {
       return;
     }
     const SolveResult solved = solve(*system, baked_.problems[0]);
+    std::map<int, std::vector<std::uint32_t>> masks;  // by how many lobes are kept
     for (const RealisKind& kind : kinds) {
+      std::vector<std::uint32_t>& mask = masks[kind.options.dominant];
+      if (kind.options.dominant < lobes && mask.empty()) {
+        mask = dominant_masks(*system, std::span(baked_.problems).first(1), std::span(&solved, 1),
+                              kind.options.dominant);
+      }
       const std::vector<float> amplitudes =
           kind.is_whole() ? solved.amplitudes
-                          : compressed_amplitudes(*system, solved.amplitudes, kind.options);
+                          : compressed_amplitudes(*system, solved.amplitudes, kind.options, mask);
       add(realis_method(kind), targets, base, corrected(base, targets, *system, amplitudes));
     }
   }
 
   std::vector<float> compressed_amplitudes(const LobeSystem& system, std::span<const float> amplitudes,
-                                           const CompressOptions& options) const {
+                                           const CompressOptions& options,
+                                           std::span<const std::uint32_t> masks) const {
     const TexelProblem& problem = baked_.problems[0];
-    const std::vector<RealisRange> ranges = code_ranges(system, problem, amplitudes, options);
-    return compress_block(system, problem, amplitudes, sample_.texels, info_.width, ranges, options)
+    const std::vector<RealisRange> ranges = code_ranges(system, problem, amplitudes, options, masks);
+    return compress_block(system, problem, amplitudes, sample_.texels, info_.width, ranges, options, masks)
         .amplitudes;
   }
 

@@ -40,15 +40,30 @@ struct Kind {
   std::vector<std::vector<RealisRange>> ranges;  // of each problem; empty where not rounded
 };
 
-// As the asset has them: channels of a texel keep the same lobes. Empty where there is nothing to share.
-std::vector<std::uint32_t> shared_masks(const BakedBy& baked, const RealisKind& kind) {
-  if (baked.block.problems.size() < 2 || kind.options.dominant == kind.lobes) return {};
-  return dominant_masks(*baked.system, baked.block.problems, baked.block.solved, kind.options.dominant);
-}
+// The lobes that texels of one bake keep, found once for all kinds that keep as many.
+class KeptLobes {
+ public:
+  explicit KeptLobes(const BakedBy& baked) : baked_(baked) {}
 
-Amplitudes amplitudes_of(const Kind& kind, const BakedBy& baked, const TexelBlock& block, int width) {
+  // As the asset has them: channels of a texel keep the same lobes. Empty where all are kept.
+  const std::vector<std::uint32_t>& of(const RealisKind& kind) {
+    std::vector<std::uint32_t>& masks = masks_[kind.options.dominant];
+    if (kind.options.dominant < kind.lobes && masks.empty()) {
+      masks =
+          dominant_masks(*baked_.system, baked_.block.problems, baked_.block.solved, kind.options.dominant);
+    }
+    return masks;
+  }
+
+ private:
+  const BakedBy& baked_;
+  std::map<int, std::vector<std::uint32_t>> masks_;
+};
+
+Amplitudes amplitudes_of(const Kind& kind, const BakedBy& baked, KeptLobes& kept, const TexelBlock& block,
+                         int width) {
   if (kind.kind.is_whole()) return baked.solved();
-  const std::vector<std::uint32_t> masks = shared_masks(baked, kind.kind);
+  const std::vector<std::uint32_t>& masks = kept.of(kind.kind);
   Amplitudes out;
   for (std::size_t p = 0; p < baked.block.solved.size(); ++p) {
     out.push_back(compress_block(*baked.system, baked.block.problems[p], baked.block.solved[p].amplitudes,
@@ -58,8 +73,9 @@ Amplitudes amplitudes_of(const Kind& kind, const BakedBy& baked, const TexelBloc
   return out;
 }
 
-std::vector<std::vector<RealisRange>> ranges_of(const BakedBy& baked, const RealisKind& kind) {
-  const std::vector<std::uint32_t> masks = shared_masks(baked, kind);
+std::vector<std::vector<RealisRange>> ranges_of(const BakedBy& baked, KeptLobes& kept,
+                                                const RealisKind& kind) {
+  const std::vector<std::uint32_t>& masks = kept.of(kind);
   std::vector<std::vector<RealisRange>> out;
   for (std::size_t p = 0; p < baked.block.solved.size(); ++p) {
     out.push_back(code_ranges(*baked.system, baked.block.problems[p], baked.block.solved[p].amplitudes,
@@ -100,7 +116,9 @@ struct HeldOutBaker::State {
     if (baked.system) {
       const auto lobes = static_cast<int>(baked.system->lobes().size());
       const std::vector<RealisKind> all = realis_kinds("realis", lobes, true, dither);
-      for (std::size_t k = 1; k < all.size(); ++k) kinds.push_back({all[k], 0, ranges_of(baked, all[k])});
+      KeptLobes kept(baked);
+      for (std::size_t k = 1; k < all.size(); ++k)
+        kinds.push_back({all[k], 0, ranges_of(baked, kept, all[k])});
     }
     for (const Kind& kind : kinds) names.push_back(kind.kind);
   }
@@ -173,13 +191,14 @@ HeldOutTexels HeldOutBaker::bake(const TexelBlock& block) const {
   std::unique_ptr<HeldOutTexels::State> texels(new HeldOutTexels::State{
       s, block.texels, bake_by(s.info, block, s.plans.plan, s.settings), {}, {}, {}});
   texels->whole = {&texels->baked, texels->baked.solved()};
+  KeptLobes kept(texels->baked);
   for (const Kind& kind : s.kinds) {
     const BakedBy* baked = &texels->baked;
     if (kind.plan != 0) {
       baked = &texels->others.emplace(kind.plan, bake_by(s.info, block, s.plan_of(kind), s.settings))
                    .first->second;
     }
-    texels->ways.push_back({baked, amplitudes_of(kind, *baked, block, s.info.width)});
+    texels->ways.push_back({baked, amplitudes_of(kind, *baked, kept, block, s.info.width)});
   }
   return HeldOutTexels(std::move(texels));
 }

@@ -114,6 +114,12 @@ LobeSystem::LobeSystem(LobeSet lobes, std::span<const Vec3> directions,
                                                   static_cast<Eigen::Index>(squared_modulation.size()));
   Eigen::MatrixXd gram = basis_.transpose() * weights.asDiagonal() * basis_;
   if (!gram.allFinite()) throw std::invalid_argument("LobeSystem: a modulation is not finite");
+  products_.resize(basis_.cols() * (basis_.cols() + 1) / 2, basis_.rows());
+  for (Eigen::Index i = 0, entry = 0; i < basis_.cols(); ++i) {
+    for (Eigen::Index j = 0; j <= i; ++j) {
+      products_.row(entry++) = basis_.col(i).cwiseProduct(basis_.col(j)).transpose();
+    }
+  }
   const double scale = gram.diagonal().mean();
   if (!(scale > 0.0)) gram.setIdentity();  // no light reaches a lobe: any unit will do
   penalty_ = ridge * (scale > 0.0 ? scale : 1.0);

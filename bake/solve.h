@@ -35,6 +35,8 @@ class LobeSystem {
   const LobeSet& lobes() const { return lobes_; }
   const std::vector<Vec3>& directions() const { return directions_; }
   const Eigen::MatrixXd& basis() const { return basis_; }  // lights x lobes
+  // (lobe, lobe) below and on the diagonal by rows, x lights: products of two lobes' values.
+  const Eigen::MatrixXd& products() const { return products_; }
   double ridge() const { return ridge_; }
   double penalty() const { return penalty_; }  // the penalty's diagonal
   // Of the Gram matrix of the average texel, without ridge; infinite where lobes cannot be told apart.
@@ -56,6 +58,7 @@ class LobeSystem {
   LobeSet lobes_;
   std::vector<Vec3> directions_;
   Eigen::MatrixXd basis_;
+  Eigen::MatrixXd products_;
   double ridge_;
   double penalty_;
   double condition_;
