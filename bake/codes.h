@@ -30,7 +30,7 @@ struct Quantiser {
 // that are found saves 40% of the squared rounding error (8 lobes of a measured head, 4 bits); with more bits
 // there is nothing left to save.
 constexpr int search_steps(int bits) {
-  return bits <= 5 ? 64 : 0;
+  return bits <= 5 ? 32 : 0;
 }
 
 // One texel, prepared for any number of searches.

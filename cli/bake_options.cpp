@@ -71,12 +71,13 @@ void add_bake_options(CLI::App& app, BakeArguments& a) {
       ->check(CLI::Range(0, 10000))
       ->capture_default_str()
       ->take_last();
-  CLI::Option* panels =
-      app.add_option("--panels", a.panels,
-                     "lights to draw as held out, beside their capture: worst, median, best (the default "
-                     "with evidence), all, "
-                     "a picture's name with or without its ending, or its place from 0; repeatable. Costs a "
-                     "bake of about 384 x 384 texels for each fold");
+  CLI::Option* panels = app.add_option(
+      "--panels", a.panels,
+      "lights to draw as held out, beside their capture, with other sizes of Realis below: worst, "
+      "median, best, all, a picture's name with or without its ending, or its place from 0; "
+      "repeatable. Costs a bake of about 384 x 384 texels for each fold, and several for each "
+      "light. Without it worst, median and best are drawn where there is evidence, without other "
+      "sizes");
   panels->expected(1)->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
   app.add_flag("--no-panels", a.no_panels, "no pictures of held-out lights, and no map of where Realis helps")
       ->excludes(panels);

@@ -98,7 +98,8 @@ void BakePictures::prepare(const TexelBlock& sample, const bake::Evidence* evide
     const bool has_panel = std::any_of(panels_.begin(), panels_.end(), [&](const PanelLight& panel) {
       return static_cast<int>(panel.light) % folds_ == number;
     });
-    fold.baker.emplace(info_, sample, fold.plans, settings_, has_panel, !a_.no_dither);
+    // Every size is as much work again as all lights of the map: for those who ask for a light.
+    fold.baker.emplace(info_, sample, fold.plans, settings_, has_panel && !a_.panels.empty(), !a_.no_dither);
   }
   benefit_.emplace(grid_);
   for (const auto& [index, fold] : plans_) benefit_->lights += fold.lights.size();

@@ -103,7 +103,8 @@ std::vector<float> FrameImage::unit_vectors(const PixelChoice& choice) {
       const double value = vectors[c * count + k];
       normal[c] = is_encoded ? 2.0 * value - 1.0 : value;
     }
-    const double length = std::hypot(normal[0], normal[1], normal[2]);
+    // Squares of floats do not overflow in double precision, so that the slow hypot is not needed.
+    const double length = std::sqrt(normal[0] * normal[0] + normal[1] * normal[1] + normal[2] * normal[2]);
     // Nothing there, or far from a normal.
     const bool is_sound = std::isfinite(length) && length > 0.5;
     for (std::size_t c = 0; c < 3; ++c) {

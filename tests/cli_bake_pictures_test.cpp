@@ -103,6 +103,7 @@ TEST_F(CliBakePictures, ShowTheWorstTheMedianAndTheBestLight) {
       EXPECT_EQ(below, word == "worst" ? kLights - 1 : word == "best" ? 0 : kLights / 2) << word;
     }
     EXPECT_TRUE(std::filesystem::exists(path("baked/" + panel["file"].get<std::string>())));
+    EXPECT_EQ(panel["tiles"].size(), 5U) << "other sizes are for those who ask";
   }
   EXPECT_THAT(words, testing::UnorderedElementsAre("worst", "median", "best"));
   EXPECT_EQ(files_in("baked/bumps.panels"), 3U);
