@@ -41,8 +41,8 @@ void check(const StackInfo& info, const TexelBlock& block) {
   const bool fits =
       block.lights == info.lights.size() && block.rgb.size() == block.lights * block.channels * texels &&
       (block.weight.empty() || block.weight.size() == block.lights * texels) &&
-      (block.channels == 3 ||
-       (block.channels == 1 && block.normals.size() == 3 * texels && block.albedo.size() == 3 * texels));
+      (block.channels == 3 || (block.channels == 1 && !has_near_lights(info) &&
+                               block.normals.size() == 3 * texels && block.albedo.size() == 3 * texels));
   if (!fits) throw std::invalid_argument("bake_rows: sizes disagree");
 }
 
@@ -70,13 +70,13 @@ NoiseOf noise_of(const TexelBlock& block, std::size_t lobes, int width) {
 bool has_short_way(const StackInfo& info, const BakePlan& plan, const BakeSettings& settings,
                    const RealisPacking& packing) {
   return settings.colour == RealisColour::kLuminance && packing.bits == kBits && plan.system &&
-         packing.dominant == static_cast<int>(plan.system->lobes().size()) && !has_near_lights(info) &&
+         packing.dominant == static_cast<int>(plan.system->lobes().size()) &&
          plan.lights.size() == info.lights.size() &&
          std::ranges::all_of(packing.ranges, [](const RealisRange& range) { return range.step > 0.0; });
 }
 
 bool needs_luminance_alone(const StackInfo& info, const BakePlan& plan) {
-  return !plan.base.material && info.has_normals && info.has_albedo;
+  return !plan.base.material && info.has_normals && info.has_albedo && !has_near_lights(info);
 }
 
 std::size_t cut_codes(const BakedRows& rows) {
@@ -84,44 +84,91 @@ std::size_t cut_codes(const BakedRows& rows) {
       std::ranges::count_if(rows.stored, [](std::uint8_t code) { return code == 0 || code == kTop; }));
 }
 
+namespace {
+
+// What a job reads, and where it lies. Filled in once, in place.
+struct Source {
+  ShadeSource shade;
+  std::vector<float> render;
+  std::vector<float> residual;
+  LightTables lights;
+  TexelProblem problem;  // of near lights: each texel sees them elsewhere
+  std::vector<double> lobes;
+  NearLights near;
+
+  explicit Source(const StackInfo& info) : lights(info) {}
+  Source(const Source&) = delete;
+  Source& operator=(const Source&) = delete;
+
+  Surface prepare(const StackInfo& info, const TexelBlock& block, const BaseModel& base,
+                  bool albedo_in_modulation) {
+    const LightChoice all = all_lights(info);
+    shade.values = block.rgb.data();
+    shade.channels = block.channels;
+    Surface surface;
+    if (block.channels == 1) {
+      surface = given_surface(block);
+    } else if (base.material && block.albedo.empty()) {
+      ColouredSurface coloured =
+          base_colour_and_residual(info, block, photometric_stereo(info, block, all), all, base);
+      surface = std::move(coloured.surface);
+      residual = std::move(coloured.residual);
+      shade.values = residual.data();
+      shade.channels = 1;
+      shade.is_residual = true;
+    } else {
+      surface = photometric_stereo(info, block, all);
+      if (base.material) render = render_block(info, block, surface, all, base);
+    }
+    shade.render = render.empty() ? nullptr : render.data();
+    shade.direction = lights.direction.data();
+    shade.colour = lights.colour.data();
+    for (std::size_t c = 0; c < 3; ++c) shade.mix[c] = static_cast<float>(kLuminance[c]);
+    shade.albedo_in_modulation = albedo_in_modulation;
+    return surface;
+  }
+
+  Surface prepare_near(const StackInfo& info, const TexelBlock& block, const BakePlan& plan,
+                       bool albedo_in_modulation) {
+    Surface surface = surface_of(info, block, plan.base);
+    problem = luminance_problem(
+        info, block, render_of(info, block, surface, all_lights(info), plan.base, albedo_in_modulation));
+    lobes = lobe_numbers(plan.system->lobes());
+    near = {problem.directions.data(), lobes.data()};
+    return surface;
+  }
+
+  void put(const BakedRows& baked, const TexelBlock& block, SolveJob& job) {
+    if (near.directions != nullptr) {
+      job.residual = problem.residual.data();
+      job.modulation = problem.modulation.data();
+      job.weight = problem.weight.empty() ? nullptr : problem.weight.data();
+      job.near = &near;
+      return;
+    }
+    shade.normals = baked.surface.normals.data();
+    shade.albedo = baked.surface.albedo.data();
+    job.source = &shade;
+    job.weight = block.weight.empty() ? nullptr : block.weight.data();
+  }
+};
+
+}  // namespace
+
 BakedRows bake_rows(const StackInfo& whole, const TexelBlock& block, const BakePlan& plan,
                     const BakeSettings& settings, const RealisPacking& packing, bool dither) {
   const StackInfo info = with_gains(whole, plan.gains);
   check(info, block);
   BakedRows baked;
-  const LightChoice all = all_lights(info);
-  ShadeSource source;
-  source.values = block.rgb.data();
-  source.channels = block.channels;
-  std::vector<float> render;
-  std::vector<float> residual;
-  if (block.channels == 1) {
-    baked.surface = given_surface(block);
-  } else if (plan.base.material && block.albedo.empty()) {
-    ColouredSurface coloured =
-        base_colour_and_residual(info, block, photometric_stereo(info, block, all), all, plan.base);
-    baked.surface = std::move(coloured.surface);
-    residual = std::move(coloured.residual);
-    source.values = residual.data();
-    source.channels = 1;
-    source.is_residual = true;
-  } else {
-    baked.surface = photometric_stereo(info, block, all);
-    if (plan.base.material) render = render_block(info, block, baked.surface, all, plan.base);
-  }
-  const LightTables lights(info);
-  source.render = render.empty() ? nullptr : render.data();
-  source.normals = baked.surface.normals.data();
-  source.albedo = baked.surface.albedo.data();
-  source.direction = lights.direction.data();
-  source.colour = lights.colour.data();
-  for (std::size_t c = 0; c < 3; ++c) source.mix[c] = static_cast<float>(kLuminance[c]);
-  source.albedo_in_modulation = settings.albedo_in_modulation;
-
+  Source source(info);
+  baked.surface = has_near_lights(info)
+                      ? source.prepare_near(info, block, plan, settings.albedo_in_modulation)
+                      : source.prepare(info, block, plan.base, settings.albedo_in_modulation);
   const LobeSystem& system = *plan.system;
   const std::size_t lobes = system.lobes().size();
   const SolveOptions options;
   SolveJob job = solve_job(system, block.lights, block.count(), options, baked.solved);
+  source.put(baked, block, job);
   baked.stored.assign(lobes * block.count(), 0);
   std::vector<float> steps;
   std::vector<float> zeros;
@@ -135,8 +182,6 @@ BakedRows bake_rows(const StackInfo& whole, const TexelBlock& block, const BakeP
   round.dither = static_cast<float>(kDitherStrength);
   round.top = static_cast<float>(kTop);
   round.stored = baked.stored.data();
-  job.source = &source;
-  job.weight = block.weight.empty() ? nullptr : block.weight.data();
   job.round = &round;
   solve_parallel(job, options.isa, dither ? noise_of(block, lobes, info.width) : NoiseOf());
   return baked;

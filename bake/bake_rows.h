@@ -10,13 +10,13 @@
 
 namespace brdfit::bake {
 
-// Whether there is such a way: luminance, 8 bits, all lobes kept, directional lights, none left out, and a
-// range for every lobe.
+// Whether there is such a way: luminance, 8 bits, all lobes kept, no light left out, and a range for every
+// lobe.
 bool has_short_way(const StackInfo& info, const BakePlan& plan, const BakeSettings& settings,
                    const RealisPacking& packing);
 
 // Whether it needs no more of the pictures than their luminance (ImageStack::read_luminance): Lambert with
-// normals and albedo given.
+// normals and albedo given, lights directional.
 bool needs_luminance_alone(const StackInfo& info, const BakePlan& plan);
 
 struct BakedRows {

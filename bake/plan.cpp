@@ -80,12 +80,6 @@ BlockRender render_of(const StackInfo& info, const TexelBlock& block, const Surf
 
 namespace {
 
-// Normals and albedo, and the base model's own colours.
-Surface surface_of(const StackInfo& info, const TexelBlock& block, const BaseModel& base) {
-  const LightChoice all = all_lights(info);
-  return with_base_colour(info, block, photometric_stereo(info, block, all), all, base);
-}
-
 std::vector<TexelProblem> problems_of(const StackInfo& info, const TexelBlock& block,
                                       const BlockRender& render, RealisColour colour) {
   std::vector<TexelProblem> problems;
@@ -259,6 +253,11 @@ BakePlan plan_bake(const StackInfo& whole, const TexelBlock& whole_sample, const
   const StackInfo info = with_lights(with_gains(whole, plan.gains), lights);
   plan_lobes(plan, info, sample, settings);
   return plan;
+}
+
+Surface surface_of(const StackInfo& info, const TexelBlock& block, const BaseModel& base) {
+  const LightChoice all = all_lights(info);
+  return with_base_colour(info, block, photometric_stereo(info, block, all), all, base);
 }
 
 BakedBlock bake_block(const StackInfo& whole, const TexelBlock& whole_block, const BakePlan& plan,

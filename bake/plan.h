@@ -86,6 +86,9 @@ struct BakedBlock {
 BakedBlock bake_block(const StackInfo& info, const TexelBlock& block, const BakePlan& plan,
                       const BakeSettings& settings);
 
+// Normals and albedo of a block, and the base model's own colours.
+Surface surface_of(const StackInfo& info, const TexelBlock& block, const BaseModel& base);
+
 // The render of a block under some lights as a problem takes it: radiance, shade and albedo.
 BlockRender render_of(const StackInfo& info, const TexelBlock& block, const Surface& surface,
                       const LightChoice& lights, const BaseModel& base, bool albedo_in_modulation);

@@ -42,15 +42,6 @@ void check(const LobeSystem& system, const TexelProblem& problem) {
   if (!fits) throw std::invalid_argument("solve: the problem's sizes disagree");
 }
 
-void solve_directional(const LobeSystem& system, const TexelProblem& problem, const SolveOptions& options,
-                       SolveResult& result) {
-  SolveJob job = solve_job(system, problem.lights, problem.texels, options, result);
-  job.residual = problem.residual.data();
-  job.modulation = problem.modulation.data();
-  job.weight = problem.weight.empty() ? nullptr : problem.weight.data();
-  solve_parallel(job, options.isa);
-}
-
 // gram^-1 right; mixes of lobes that the matrix does not determine get 0.
 Eigen::MatrixXd solved(const Eigen::MatrixXd& gram, const Eigen::MatrixXd& right) {
   const Eigen::LLT<Eigen::MatrixXd> triangle(gram);
@@ -60,37 +51,6 @@ Eigen::MatrixXd solved(const Eigen::MatrixXd& gram, const Eigen::MatrixXd& right
   const Eigen::VectorXd inverse =
       eigen.eigenvalues().unaryExpr([least](double v) { return v > least ? 1.0 / v : 0.0; });
   return eigen.eigenvectors() * (inverse.asDiagonal() * (eigen.eigenvectors().transpose() * right));
-}
-
-// One texel under lights whose directions are its own.
-void solve_near(const LobeSystem& system, const TexelProblem& problem, const SolveOptions& options,
-                std::size_t texel, SolveResult& result) {
-  const auto lights = static_cast<Eigen::Index>(problem.lights);
-  std::vector<Vec3> directions(problem.lights);
-  Eigen::VectorXd residual(lights);
-  Eigen::VectorXd modulation(lights);
-  Eigen::VectorXd weight(lights);
-  for (std::size_t l = 0; l < problem.lights; ++l) {
-    const auto row = static_cast<Eigen::Index>(l);
-    directions[l] = problem.direction(l, texel, system.directions()[l]);
-    residual[row] = problem.residual[problem.at(l, texel)];
-    modulation[row] = problem.modulation[problem.at(l, texel)];
-    weight[row] = problem.weight_of(l, texel);
-  }
-  const TexelSolution solution =
-      solve_texel(lobe_values(system.lobes(), directions), residual, modulation, weight, system.penalty());
-  const Eigen::VectorXd& errors = options.leave_one_out ? solution.left_out : solution.left;
-  const double with = (weight.array() * errors.array().square()).sum();
-  const double without = (weight.array() * residual.array().square()).sum();
-  const bool better = with < without;
-  result.error_with[texel] = static_cast<float>(with);
-  result.error_without[texel] = static_cast<float>(without);
-  result.confidence[texel] = better ? static_cast<float>(1.0 - with / without) : 0.0F;
-  if (options.select && !better) return;
-  for (Eigen::Index k = 0; k < solution.amplitudes.size(); ++k) {
-    result.amplitudes[static_cast<std::size_t>(k) * problem.texels + texel] =
-        static_cast<float>(solution.amplitudes[k]);
-  }
 }
 
 }  // namespace
@@ -199,10 +159,19 @@ SolveJob solve_job(const LobeSystem& system, std::size_t lights, std::size_t tex
   return job;
 }
 
+std::vector<double> lobe_numbers(const LobeSet& lobes) {
+  std::vector<double> numbers;
+  for (const Lobe& lobe : lobes) {
+    numbers.insert(numbers.end(), {lobe.axis.x, lobe.axis.y, lobe.axis.z, lobe.sharpness, lobe.cos_cut_off});
+  }
+  return numbers;
+}
+
 void solve_parallel(const SolveJob& job, simd::Isa isa, const NoiseOf& noise_of) {
   const SolveFunction run = solve_function(isa);
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, job.stride, kGrain), [&](const auto& range) {
-    std::vector<float> scratch(3 * kMostTexelsAtOnce * (job.lights + kLightGroup));
+    const std::size_t planes = 3 + (job.near != nullptr ? static_cast<std::size_t>(job.width) : 0);
+    std::vector<float> scratch(planes * kMostTexelsAtOnce * (job.lights + kLightGroup));
     std::vector<float> noise;
     SolveJob part = job;
     part.first = range.begin();
@@ -224,13 +193,14 @@ void solve_parallel(const SolveJob& job, simd::Isa isa, const NoiseOf& noise_of)
 SolveResult solve(const LobeSystem& system, const TexelProblem& problem, const SolveOptions& options) {
   check(system, problem);
   SolveResult result;
-  if (problem.directions.empty()) {
-    solve_directional(system, problem, options, result);
-  } else {
-    solve_job(system, problem.lights, problem.texels, options, result);
-    tbb::parallel_for(std::size_t{0}, problem.texels,
-                      [&](std::size_t texel) { solve_near(system, problem, options, texel, result); });
-  }
+  SolveJob job = solve_job(system, problem.lights, problem.texels, options, result);
+  job.residual = problem.residual.data();
+  job.modulation = problem.modulation.data();
+  job.weight = problem.weight.empty() ? nullptr : problem.weight.data();
+  const std::vector<double> lobes = lobe_numbers(system.lobes());
+  const NearLights near{problem.directions.data(), lobes.data()};
+  if (!problem.directions.empty()) job.near = &near;
+  solve_parallel(job, options.isa);
   return result;
 }
 

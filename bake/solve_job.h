@@ -31,6 +31,12 @@ struct ShadeSource {
   bool albedo_in_modulation = false;
 };
 
+// Lights that are near, so that each texel sees them elsewhere and has its own values of the lobes.
+struct NearLights {
+  const float* directions = nullptr;  // [light][3][texel], unit, towards the light
+  const double* lobes = nullptr;      // [lobe][5]: axis, sharpness, cosine of the cut-off
+};
+
 // Amplitudes to stored codes, each rounded at its best value given those that are rounded already; as
 // bake/codes.h has it for codes of 8 bits.
 struct RoundJob {
@@ -54,11 +60,12 @@ struct SolveJob {
   const float* modulation = nullptr;    // [light][texel]
   const ShadeSource* source = nullptr;  // in place of the two
   const float* weight = nullptr;        // [light][texel]; null: all 1
+  const NearLights* near = nullptr;     // null: directional lights, of which basis and products speak
   const float* basis = nullptr;         // [padded light][width]
   const float* products = nullptr;      // [padded light][width (width + 1) / 2], lower triangles by rows
   const float* penalty = nullptr;       // [width (width + 1) / 2], likewise
   const float* mixes = nullptr;         // [lobe][width]: amplitudes of the unknowns
-  float* scratch = nullptr;             // 3 x padded lights x kMostTexelsAtOnce
+  float* scratch = nullptr;  // planes of padded lights x kMostTexelsAtOnce: 3, and `width` where near
   bool leave_one_out = true;
   bool select = true;
   const RoundJob* round = nullptr;  // null: no codes

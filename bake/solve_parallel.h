@@ -16,6 +16,9 @@ namespace brdfit::bake {
 SolveJob solve_job(const LobeSystem& system, std::size_t lights, std::size_t texels,
                    const SolveOptions& options, SolveResult& result);
 
+// Lobes as NearLights takes them.
+std::vector<double> lobe_numbers(const LobeSet& lobes);
+
 // Fills in the noise of the dither of texels [first, first + count): [lobe][texel].
 using NoiseOf = std::function<void(std::size_t first, std::size_t count, std::vector<float>& noise)>;
 

@@ -5,6 +5,7 @@
 // are mixes of lobes that are orthonormal on average, and one step of refinement on the residual takes the
 // solution to where single precision of the residual itself ends.
 #include "bake/solve_job.h"
+#include "brdf/kernel/spherical_gaussian.h"
 #include "brdf/simd/lanes.h"
 
 namespace brdfit::simd::BRDFIT_SIMD_ISA {
@@ -34,7 +35,8 @@ HWY_INLINE V broadcast(float x) {
   return V::of(hn::Set(V::Tag(), x));
 }
 
-template <int P>
+// P: unknowns. kNear: whether each texel has its own values of the lobes.
+template <int P, bool kNear>
 class TexelSolver {
  public:
   static constexpr int n = P * (P + 1) / 2;
@@ -44,16 +46,22 @@ class TexelSolver {
         padded_((job.lights + kLightGroup - 1) / kLightGroup * kLightGroup),
         residual_(job.scratch),
         modulation_(residual_ + padded_ * kStep),
-        left_(modulation_ + padded_ * kStep) {
+        left_(modulation_ + padded_ * kStep),
+        own_basis_(left_ + padded_ * kStep) {
     static_assert(kStep <= bake::kMostTexelsAtOnce);
-    for (std::size_t at = 0; at < 3 * padded_ * kStep; ++at) residual_[at] = 0.0F;
+    for (std::size_t at = 0; at < (kNear ? 3 + P : 3) * padded_ * kStep; ++at) residual_[at] = 0.0F;
   }
 
   void run() {
     for (std::size_t at = 0; at < job_.count; at += kStep) {
       const std::size_t length = job_.count - at < kStep ? job_.count - at : kStep;
       load(job_.first + at, length);
-      sum_products<0>();
+      if constexpr (kNear) find_basis(job_.first + at, length);
+      if constexpr (kNear) {
+        sum_own_products<0>();
+      } else {
+        sum_products<0>();
+      }
       invert();
       solve();
       if (job_.round != nullptr) round(at, length);
@@ -204,9 +212,91 @@ class TexelSolver {
     return mixed(x, job_.source->mix);
   }
 
+  // Unknown k's value under light l for a vector of texels.
+  HWY_INLINE V basis(std::size_t l, int k, int w) const {
+    if constexpr (kNear) {
+      return V::load(own_basis_ + (l * P + static_cast<std::size_t>(k)) * kStep +
+                     static_cast<std::size_t>(w) * V::size);
+    } else {
+      return broadcast(job_.basis[l * P + static_cast<std::size_t>(k)]);
+    }
+  }
+
+  // Values of lobes are taken in double precision, as in single precision cosines near 1 say little of narrow
+  // ones.
+  HWY_NOINLINE void find_basis(std::size_t first, std::size_t length) {
+    alignas(64) float direction[3 * kStep];
+    alignas(64) float values[kStep];
+    for (std::size_t l = 0; l < job_.lights; ++l) {
+      for (std::size_t c = 0; c < 3; ++c) {
+        const float* from = job_.near->directions + (3 * l + c) * job_.stride + first;
+        for (std::size_t t = 0; t < kStep; ++t) direction[c * kStep + t] = t < length ? from[t] : 0.0F;
+      }
+      V mixed_values[P][kWide];
+      for (int i = 0; i < P; ++i) {
+        for (int w = 0; w < kWide; ++w) mixed_values[i][w] = V(0.0);
+      }
+      for (int k = 0; k < job_.lobes; ++k) {
+        lobe_values(job_.near->lobes + 5 * k, direction, values);
+        for (int i = 0; i < P; ++i) {
+          const V share = broadcast(job_.mixes[k * P + i]);
+          for (int w = 0; w < kWide; ++w) {
+            mixed_values[i][w] = multiply_add(share, V::load(values + static_cast<std::size_t>(w) * V::size),
+                                              mixed_values[i][w]);
+          }
+        }
+      }
+      for (int i = 0; i < P; ++i) {
+        float* to = own_basis_ + (l * P + static_cast<std::size_t>(i)) * kStep;
+        for (int w = 0; w < kWide; ++w) {
+          mixed_values[i][w].store(to + static_cast<std::size_t>(w) * V::size);
+        }
+      }
+    }
+  }
+
+  HWY_NOINLINE static void lobe_values(const double* lobe, const float* direction, float* values) {
+    using D = Lanes<double>;
+    const typename D::Tag wide;
+    const hn::Rebind<float, typename D::Tag> narrow;
+    for (std::size_t at = 0; at < kStep; at += D::size) {
+      D cos_axis(0.0);
+      for (std::size_t c = 0; c < 3; ++c) {
+        const D part = D::of(hn::PromoteTo(wide, hn::LoadU(narrow, direction + c * kStep + at)));
+        cos_axis = multiply_add(D(lobe[c]), part, cos_axis);
+      }
+      const D value = kernel::windowed_spherical_gaussian(cos_axis, D(lobe[3]), D(lobe[4]));
+      hn::StoreU(hn::DemoteTo(narrow, value.v), narrow, values + at);
+    }
+  }
+
+  // Rows of the Gram matrix, from products of each texel's own values.
+  template <int kRow>
+  HWY_INLINE void sum_own_products() {
+    if constexpr (kRow < P) {
+      V sums[kRow + 1][kWide];
+      for (int j = 0; j <= kRow; ++j) {
+        for (int w = 0; w < kWide; ++w) sums[j][w] = V(0.0);
+      }
+      for (std::size_t l = 0; l < job_.lights; ++l) {
+        for (int w = 0; w < kWide; ++w) {
+          const V m = V::load(&modulation_[l * kStep + static_cast<std::size_t>(w) * V::size]);
+          const V weighted = m * m * basis(l, kRow, w);
+          for (int j = 0; j <= kRow; ++j) {
+            sums[j][w] = multiply_add(weighted, basis(l, j, w), sums[j][w]);
+          }
+        }
+      }
+      for (int j = 0; j <= kRow; ++j) {
+        for (int w = 0; w < kWide; ++w) gram_[entry(kRow, j)].part[w] = sums[j][w];
+      }
+      sum_own_products<kRow + 1>();
+    }
+  }
+
   // Sums over lights of kCount columns of coefficients times what `value` gives.
-  template <int kCount, class Value>
-  HWY_INLINE void sum_columns(const float* columns, std::size_t stride, const Value& value, Wide* to) {
+  template <int kCount, class Coefficient, class Value>
+  HWY_INLINE void sum_columns(const Coefficient& coefficient, const Value& value, Wide* to) {
     V sums[kCount][kWide];
     for (int c = 0; c < kCount; ++c) {
       for (int w = 0; w < kWide; ++w) sums[c][w] = V(0.0);
@@ -214,11 +304,9 @@ class TexelSolver {
     for (std::size_t l = 0; l < job_.lights; ++l) {
       V x[kWide];
       for (int w = 0; w < kWide; ++w) x[w] = value(l * kStep + static_cast<std::size_t>(w) * V::size);
-      const float* row = columns + l * stride;
 #pragma GCC unroll 16
       for (int c = 0; c < kCount; ++c) {
-        const V b = broadcast(row[c]);
-        for (int w = 0; w < kWide; ++w) sums[c][w] = multiply_add(b, x[w], sums[c][w]);
+        for (int w = 0; w < kWide; ++w) sums[c][w] = multiply_add(coefficient(l, c, w), x[w], sums[c][w]);
       }
     }
     for (int c = 0; c < kCount; ++c) {
@@ -231,7 +319,9 @@ class TexelSolver {
     if constexpr (kFirst < n) {
       constexpr int count = n - kFirst < kChunk ? n - kFirst : kChunk;
       sum_columns<count>(
-          job_.products + kFirst, n,
+          [this](std::size_t l, int k, int) {
+            return broadcast(job_.products[l * n + static_cast<std::size_t>(kFirst + k)]);
+          },
           [this](std::size_t at) {
             const V m = V::load(&modulation_[at]);
             return m * m;
@@ -245,10 +335,11 @@ class TexelSolver {
   HWY_INLINE void sum_right_sides(const float* values) {
     if constexpr (kFirst < P) {
       constexpr int count = P - kFirst < kChunk ? P - kFirst : kChunk;
-      sum_columns<count>(
-          job_.basis + kFirst, P,
-          [this, values](std::size_t at) { return V::load(&modulation_[at]) * V::load(values + at); },
-          right_ + kFirst);
+      const auto value = [this, values](std::size_t at) {
+        return V::load(&modulation_[at]) * V::load(values + at);
+      };
+      sum_columns<count>([this](std::size_t l, int k, int w) { return basis(l, kFirst + k, w); }, value,
+                         right_ + kFirst);
       sum_right_sides<kFirst + count>(values);
     }
   }
@@ -317,11 +408,9 @@ class TexelSolver {
   HWY_INLINE void leave() {
     for (std::size_t l = 0; l < job_.lights; ++l) {
       V sums[kWide] = {V(0.0), V(0.0)};
-      const float* row = job_.basis + l * P;
 #pragma GCC unroll 16
       for (int k = 0; k < P; ++k) {
-        const V b = broadcast(row[k]);
-        for (int w = 0; w < kWide; ++w) sums[w] = multiply_add(b, unknowns_[k].part[w], sums[w]);
+        for (int w = 0; w < kWide; ++w) sums[w] = multiply_add(basis(l, k, w), unknowns_[k].part[w], sums[w]);
       }
       for (int w = 0; w < kWide; ++w) {
         const std::size_t at = l * kStep + static_cast<std::size_t>(w) * V::size;
@@ -476,6 +565,7 @@ class TexelSolver {
         }
       }
     }
+    if constexpr (kNear) return leave_one_out_near();
     constexpr int group = V::size >= 16 ? 8 : 4;
     for (std::size_t first = 0; first < padded_; first += group) {
       V hats[group][kWide];
@@ -495,6 +585,21 @@ class TexelSolver {
           add_left_out((first + static_cast<std::size_t>(g)) * kStep + static_cast<std::size_t>(w) * V::size,
                        hats[g][w], with_.part[w]);
         }
+      }
+    }
+  }
+
+  // As leave_one_out: gram_ holds the inverse, entries off the diagonal twice.
+  HWY_INLINE void leave_one_out_near() {
+    for (std::size_t l = 0; l < job_.lights; ++l) {
+      for (int w = 0; w < kWide; ++w) {
+        V hat(0.0);
+        for (int i = 0; i < P; ++i) {
+          V row(0.0);
+          for (int j = 0; j <= i; ++j) row = multiply_add(gram_[entry(i, j)].part[w], basis(l, j, w), row);
+          hat = multiply_add(row, basis(l, i, w), hat);
+        }
+        add_left_out(l * kStep + static_cast<std::size_t>(w) * V::size, hat, with_.part[w]);
       }
     }
   }
@@ -548,6 +653,7 @@ class TexelSolver {
   float* residual_;    // [light][kStep]
   float* modulation_;  // [light][kStep]
   float* left_;        // [light][kStep]
+  float* own_basis_;   // [light][P][kStep], where lights are near
   Wide gram_[n];
   Wide right_[P];
   Wide unknowns_[P];
@@ -558,16 +664,26 @@ class TexelSolver {
 
 }  // namespace
 
+namespace {
+
+template <int P>
+void solve_by(const SolveJob& job) {
+  if (job.near != nullptr) return TexelSolver<P, true>(job).run();
+  TexelSolver<P, false>(job).run();
+}
+
+}  // namespace
+
 void solve_texels(const SolveJob& job) {
   switch (job.width) {
     case 4:
-      return TexelSolver<4>(job).run();
+      return solve_by<4>(job);
     case 8:
-      return TexelSolver<8>(job).run();
+      return solve_by<8>(job);
     case 12:
-      return TexelSolver<12>(job).run();
+      return solve_by<12>(job);
     default:
-      return TexelSolver<16>(job).run();
+      return solve_by<16>(job);
   }
 }
 

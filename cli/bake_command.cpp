@@ -239,8 +239,14 @@ class Bake {
   // Rows of a strip whose pixels, and what is made of them, fit into memory.
   int strip_rows(bool luminance) const {
     const StackInfo& info = stack_.info();
-    // Per light: values, weight; and a render, or (the long way) render, residual, modulation and a copy.
-    const std::size_t planes = luminance ? 2 : short_way_ ? (plan_.base.material ? 7 : 4) : 14;
+    // Per light: values, weight; and a render, or (the long way) render, residual, modulation and a copy; and
+    // directions, where they are each texel's own.
+    const bool is_near = has_near_lights(info);
+    const bool is_short = short_way_ && !is_near;
+    const std::size_t planes = (luminance  ? 2
+                                : is_short ? (plan_.base.material ? 7 : 4)
+                                           : 14) +
+                               (is_near ? 3 : 0);
     const std::size_t texel = planes * sizeof(float) * info.lights.size() + kTexelBytes;
     const double bytes = kStripShare * static_cast<double>(static_cast<std::size_t>(a_.memory_mib) << 20);
     const int rows =

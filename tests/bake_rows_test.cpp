@@ -135,6 +135,20 @@ TEST(BakeRows, AgreesWithTheLongWayWhereNothingIsGiven) {
   expect_same(bake_rows(c.stack.info, c.stack.block, c.plan, c.settings, c.packing, true), c);
 }
 
+TEST(BakeRows, AgreesWithTheLongWayUnderNearLights) {
+  Case c = given(37);
+  c.stack.info.plane.pixel_size = 0.02;
+  for (StackLight& light : c.stack.info.lights) {
+    light.position = Vec3{2.0 * light.direction.x, 2.0 * light.direction.y, 2.0 * light.direction.z};
+  }
+  ASSERT_TRUE(has_short_way(c.stack.info, c.plan, c.settings, c.packing));
+  ASSERT_FALSE(needs_luminance_alone(c.stack.info, c.plan));
+  const BakedRows near = bake_rows(c.stack.info, c.stack.block, c.plan, c.settings, c.packing, true);
+  expect_same(near, c);
+  for (StackLight& light : c.stack.info.lights) light.position.reset();
+  EXPECT_NE(bake_rows(c.stack.info, c.stack.block, c.plan, c.settings, c.packing, true).stored, near.stored);
+}
+
 // A texel's bits depend on nothing but the texel.
 TEST(BakeRows, DoesNotDependOnHowAnAssetIsCut) {
   const Case c = given(37);
