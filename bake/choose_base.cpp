@@ -158,6 +158,7 @@ BaseChoice choose_base_model(const StackInfo& info, const TexelBlock& block, con
   const std::size_t folds = std::min<std::size_t>(static_cast<std::size_t>(options.folds), lights.size());
   if (folds >= 2) {
     for (std::size_t fold = 0; fold < folds; ++fold) {
+      if (options.check) options.check();
       LightChoice training;
       LightChoice held_out;
       for (std::size_t k = 0; k < lights.size(); ++k) {

@@ -2,6 +2,7 @@
 #ifndef BRDFIT_BAKE_CHOOSE_BASE_H_
 #define BRDFIT_BAKE_CHOOSE_BASE_H_
 
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -23,6 +24,7 @@ struct ChooseBaseOptions {
   SharedMaterialOptions material;  // but for its model, and its effects, which are all of the model's
   bool with_gains = false;         // estimate gains, anew in each fold
   GainOptions gains;
+  std::function<void()> check;  // called between folds; may throw to stop. May be empty
 
   bool is_valid(std::string* why) const;
 };

@@ -194,6 +194,7 @@ std::vector<LobeChoice> choose_lobes_each(const ProblemOf& problem_of, std::span
     if (starts.contains(count)) candidates.push_back({count, true, std::vector<double>(folds.size())});
   }
   tbb::parallel_for(std::size_t{0}, folds.size(), [&](std::size_t f) {
+    if (options.check) options.check();
     const std::vector<std::size_t> rest = all_but(directions.size(), folds[f]);
     const TexelProblem whole = problem_of(rest);
     const Part training = {with_lights(whole, rest), chosen(directions, rest)};

@@ -31,6 +31,7 @@ struct ChoiceOptions {
   bool optimise = true;  // else uniform lobes alone
   LobeSearchOptions search;
   ClassOptions classes;
+  std::function<void()> check;  // called between folds, from several threads; may throw to stop. May be empty
 };
 
 // How a kind of lobes did on held-out lights: sums over texels of weight x error^2, per fold.

@@ -39,6 +39,17 @@ class Tally {
  public:
   explicit Tally(std::size_t lights) : sum_(lights), count_(lights) {}
 
+  MethodSums sums(std::string name) const { return {std::move(name), sum_, count_, lit_sum_, lit_count_}; }
+
+  void add(const MethodSums& sums) {
+    for (std::size_t light = 0; light < sum_.size(); ++light) {
+      sum_[light] += sums.squares.at(light);
+      count_[light] += sums.counts.at(light);
+    }
+    lit_sum_ += sums.lit_squares;
+    lit_count_ += sums.lit_count;
+  }
+
   void add(const Targets& targets, const TexelProblem& problem, std::span<const float> shade,
            std::span<const float> errors) {
     for (std::size_t t = 0; t < targets.lights.size(); ++t) {
@@ -101,6 +112,11 @@ class Tallies {
     return tallies_.back();
   }
   const std::vector<MethodEvidence>& methods() const { return methods_; }
+  std::vector<MethodSums> sums() const {
+    std::vector<MethodSums> out;
+    for (std::size_t k = 0; k < methods_.size(); ++k) out.push_back(tallies_[k].sums(methods_[k].name));
+    return out;
+  }
   const Tally* find(const std::string& name) const {
     const auto found = place_.find(name);
     return found == place_.end() ? nullptr : &tallies_[found->second];
@@ -159,8 +175,14 @@ class Predictor {
 
   void predict(const LightChoice& lights) {
     const Targets targets = targets_of(info_, sample_, plan_, lights);
+    const auto check = [&] {
+      if (options_.check) options_.check();
+    };
+    check();
     compare_bases(targets);
+    check();
     compare_baselines(targets);
+    check();
     compare_realis(targets);
   }
 
@@ -366,10 +388,17 @@ Evidence evaluate(const StackInfo& info, const TexelBlock& sample, const BakePla
     const LightChoice out = held_out_lights(lights, fold, evidence.folds);
     const LightChoice kept = without(info, out);
     if (kept.empty()) continue;
-    const BakePlan fold_plan = plan_bake(info, sample, kept, settings);
-    Predictor predictor(info, sample, fold_plan, settings, options, held);
-    predictor.predict(out);
-    if (options.on_fold) options.on_fold(fold, fold_plans(fold_plan));
+    const auto make = [&] {
+      FoldEvidence made;
+      made.plan = plan_bake(info, sample, kept, settings);
+      Tallies tallies(lights);
+      Predictor(info, sample, made.plan, settings, options, tallies).predict(out);
+      made.sums = tallies.sums();
+      return made;
+    };
+    FoldEvidence found = options.fold_of ? options.fold_of(fold, make) : make();
+    for (const MethodSums& sums : found.sums) held[method(sums.name)].add(sums);
+    if (options.on_fold) options.on_fold(fold, fold_plans(std::move(found.plan)));
     if (options.progress) options.progress(static_cast<double>(fold + 1) / evidence.folds);
   }
   for (MethodEvidence found : train.methods()) {

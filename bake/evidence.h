@@ -45,12 +45,30 @@ struct FoldPlans {
 // From a plan with BakePlan::also.
 FoldPlans fold_plans(BakePlan plan);
 
+// One method's squared errors under the lights of a fold.
+struct MethodSums {
+  std::string name;             // as MethodEvidence::name
+  std::vector<double> squares;  // per light of the stack: sums over texels
+  std::vector<double> counts;   // values in them
+  double lit_squares = 0.0;     // where the texel faces the light
+  double lit_count = 0.0;
+};
+
+// What a fold adds to the evidence.
+struct FoldEvidence {
+  BakePlan plan;
+  std::vector<MethodSums> sums;
+};
+
 struct EvidenceOptions {
   int folds = 0;                         // 0: each light by itself up to 24 lights, else folds of about ten
   std::vector<int> other_lobes{4};       // Realis with these numbers of lobes too
   bool compressed = true;                // with 8 and 4 bits, and with half of the lobes per texel
   bool dither = true;                    // of what is rounded
   std::function<void(double)> progress;  // the share that is done, in [0, 1]; may be empty
+  // Gives a fold, by make() or as make() gave it before; may be empty. For bakes that were interrupted.
+  std::function<FoldEvidence(int fold, const std::function<FoldEvidence()>& make)> fold_of;
+  std::function<void()> check;  // called between steps; may throw to stop. May be empty
   std::function<void(int fold, FoldPlans plans)> on_fold;  // takes a fold's plans; may be empty
 };
 

@@ -150,6 +150,7 @@ void choose_open_lobes(BakePlan& plan, const ProblemOf& problem_of, std::span<co
   options.optimise = settings.optimise;
   options.search.seed = settings.seed;
   options.classes.seed = settings.seed;
+  options.check = settings.check;
   std::vector<LobeChoice> choices = choose_lobes_each(problem_of, directions, groups, options);
   const auto system_of = [&](const LobeChoice& choice) -> std::optional<LobeSystem> {
     if (choice.lobes.empty()) return std::nullopt;
@@ -219,6 +220,7 @@ void plan_base(BakePlan& plan, const StackInfo& info, const TexelBlock& sample,
     options.models = {Model::kLambertGgx};
     if (settings.model != Model::kLambertGgx) options.models.push_back(settings.model);
     options.with_gains = settings.gains;
+    options.check = settings.check;
     BaseChoice choice = choose_base_model(info, sample, all, options);
     plan.base = choice.fit.model;
     plan.candidates = std::move(choice.candidates);

@@ -4,6 +4,7 @@
 #define BRDFIT_BAKE_PLAN_H_
 
 #include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <span>
@@ -41,6 +42,8 @@ struct BakeSettings {
   bool gains = false;  // estimate a gain per light
   bool albedo_in_modulation = false;
   std::uint64_t seed = 1;
+  // Called between the folds of planning, from several threads at once; may throw to stop. May be empty.
+  std::function<void()> check;
 
   bool is_valid(std::string* why) const;
 };

@@ -59,6 +59,7 @@ LobeSystem::LobeSystem(LobeSet lobes, std::span<const Vec3> directions,
                        std::span<const double> squared_modulation, double ridge)
     : lobes_(std::move(lobes)),
       directions_(directions.begin(), directions.end()),
+      squared_modulation_(squared_modulation.begin(), squared_modulation.end()),
       basis_(lobe_values(lobes_, directions)),
       ridge_(ridge) {
   if (lobes_.empty() || lobes_.size() > static_cast<std::size_t>(kMaxLobes)) {

@@ -34,6 +34,7 @@ class LobeSystem {
 
   const LobeSet& lobes() const { return lobes_; }
   const std::vector<Vec3>& directions() const { return directions_; }
+  const std::vector<double>& squared_modulation() const { return squared_modulation_; }
   const Eigen::MatrixXd& basis() const { return basis_; }  // lights x lobes
   // (lobe, lobe) below and on the diagonal by rows, x lights: products of two lobes' values.
   const Eigen::MatrixXd& products() const { return products_; }
@@ -57,6 +58,7 @@ class LobeSystem {
 
   LobeSet lobes_;
   std::vector<Vec3> directions_;
+  std::vector<double> squared_modulation_;
   Eigen::MatrixXd basis_;
   Eigen::MatrixXd products_;
   double ridge_;
