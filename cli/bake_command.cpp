@@ -3,6 +3,7 @@
 #include <malloc.h>
 
 #include <algorithm>
+#include <csignal>
 #include <filesystem>
 #include <functional>
 #include <optional>
@@ -13,10 +14,13 @@
 #include "bake/compress_block.h"
 #include "cli/asset_files.h"
 #include "cli/bake_evidence.h"
+#include "cli/bake_key.h"
 #include "cli/bake_options.h"
 #include "cli/bake_pictures.h"
+#include "cli/bake_restart.h"
 #include "cli/bake_stack.h"
 #include "cli/bake_timings.h"
+#include "cli/left_files.h"
 #include "cli/progress.h"
 #include "cli/threads.h"
 #include "cli/version.h"
@@ -55,19 +59,8 @@ std::vector<std::uint32_t> sample_of(const StackInfo& info, std::size_t count) {
 // One bake from beginning to end.
 class Bake {
  public:
-  Bake(const BakeArguments& a, std::string command_line)
-      : a_(a),
-        settings_(bake_settings_of(a)),
-        ranges_(given_ranges(a, settings_)),
-        command_line_(std::move(command_line)),
-        needs_sample_(!a.no_evidence || !a.panels.empty() || ranges_.empty() || !bake::is_decided(settings_)),
-        stack_(a, needs_sample_) {
-    asset_.name = a.name.empty() ? stack_.info().name : a.name;
-    json_file_ = std::filesystem::path(a.output) / (asset_.name + ".realis.json");
-    prepare_output(json_file_, a.common.force);
-    pictures_.emplace(a, stack_.info(), settings_, asset_.name);
-    if (!pictures_->is_wanted()) pictures_.reset();
-  }
+  Bake(const BakeArguments& a, const CLI::App& parser, std::string command_line)
+      : Bake(a, parser, std::move(command_line), io::read_stack_source(a.stack)) {}
 
   int run() {
     if (a_.timings) timings_.measure_decoding(stack_.source());
@@ -83,6 +76,54 @@ class Bake {
   }
 
  private:
+  Bake(const BakeArguments& a, const CLI::App& parser, std::string command_line,
+       const io::StackSource& source)
+      : a_(a),
+        settings_(bake_settings_of(a)),
+        ranges_(given_ranges(a, settings_)),
+        command_line_(std::move(command_line)),
+        needs_sample_(!a.no_evidence || !a.panels.empty() || ranges_.empty() || !bake::is_decided(settings_)),
+        json_file_(std::filesystem::path(a.output) / (name_of(a, source) + ".realis.json")),
+        restart_(std::filesystem::path(a.output) / (name_of(a, source) + ".realis.part"),
+                 bake_key(parser, a, source), a.fresh),
+        reads_sample_(needs_sample_ && !is_past_sample()),
+        stack_(a, reads_sample_) {
+    asset_.name = name_of(a, source);
+    settings_.check = [this] { stop_if_interrupted(); };
+    a_.common.force = a.common.force || restart_.has_outputs_begun();
+    prepare_output(json_file_, a_.common.force);
+    pictures_.emplace(a_, stack_.info(), settings_, asset_.name);
+    if (!pictures_->is_wanted()) pictures_.reset();
+    const std::string found =
+        restart_.found(stack_.info().height, bake::fold_count(stack_.info().lights.size(), a.folds));
+    if (!found.empty()) say(a_.common, found);
+  }
+
+  static std::string name_of(const BakeArguments& a, const io::StackSource& source) {
+    return a.name.empty() ? source.name : a.name;
+  }
+
+  // Whether an interrupted bake has left all that the sample is read for.
+  bool is_past_sample() const {
+    const bool has_pictures = !a_.panels.empty() || (!a_.no_panels && !a_.no_evidence);
+    return restart_.plan() && !has_pictures && (a_.no_evidence || restart_.evidence()) &&
+           (!ranges_.empty() || restart_.ranges());
+  }
+
+  void stop_if_interrupted() const {
+    if (interrupted()) throw std::runtime_error("interrupted; " + restart_.how_to_go_on());
+  }
+
+  // A phase is done, and kept.
+  void reached(const std::string& phase) const {
+    if (a_.stop_after == phase) std::raise(SIGINT);
+    stop_if_interrupted();
+  }
+
+  std::vector<std::uint32_t> sample_texels() const {
+    return sample_of(stack_.info(), static_cast<std::size_t>(a_.sample_texels));
+  }
+
   void decide() {
     say(a_.common, fmt::format("{}: {} lights, {} x {} texels", asset_.name, stack_.info().lights.size(),
                                stack_.info().width, stack_.info().height));
@@ -90,14 +131,21 @@ class Bake {
       plan_ = bake::decided_plan(stack_.info(), settings_);
       return;
     }
-    const std::vector<std::uint32_t> texels =
-        sample_of(stack_.info(), static_cast<std::size_t>(a_.sample_texels));
-    sample_ = timings_.timed("decode sample", [&] { return stack_.read_texels(texels); });
+    if (reads_sample_) {
+      sample_ = timings_.timed("decode sample", [&] { return stack_.read_texels(sample_texels()); });
+    }
+    stop_if_interrupted();
+    if (restart_.plan()) {
+      plan_ = *restart_.plan();
+      return;
+    }
     plan_ = timings_.timed("plan", [&] {
       return bake::plan_bake(stack_.info(), sample_, bake::all_lights(stack_.info()),
                              a_.no_evidence ? settings_ : bake::with_compared_lobes(settings_, {}));
     });
     warn_of_capture();
+    restart_.keep_plan(plan_);
+    reached("plan");
   }
 
   // What is wrong with the capture comes first: it may explain the rest.
@@ -107,20 +155,43 @@ class Bake {
   }
 
   void weigh() {
+    const int folds = bake::fold_count(stack_.info().lights.size(), a_.folds);
+    if (restart_.evidence() && take_over_folds(folds)) {
+      evidence_ = *restart_.evidence();
+      return;
+    }
     bake::EvidenceOptions options;
     options.folds = a_.folds;
     options.dither = !a_.no_dither;
-    const int folds = bake::fold_count(stack_.info().lights.size(), a_.folds);
+    options.check = settings_.check;
+    options.fold_of = [&](int fold, const std::function<bake::FoldEvidence()>& make) {
+      const bool is_kept = restart_.has_fold(fold);
+      bake::FoldEvidence evidence = restart_.fold_of(fold, make);
+      if (!is_kept) reached("fold");
+      return evidence;
+    };
     Progress progress(static_cast<std::size_t>(folds), a_.common.quiet || a_.common.json);
     options.progress = [&](double) {
       progress.step("held-out lights");
-      if (interrupted()) throw std::runtime_error("interrupted; nothing is written");
+      stop_if_interrupted();
     };
     if (pictures_) {
       options.on_fold = [&](int fold, bake::FoldPlans plans) { pictures_->keep(fold, std::move(plans)); };
     }
     evidence_ = timings_.timed(
         "evidence", [&] { return bake::evaluate(stack_.info(), sample_, plan_, settings_, options); });
+    restart_.keep_evidence(evidence_);
+    reached("evidence");
+  }
+
+  // Plans of folds as the pictures need them; false where one is missing.
+  bool take_over_folds(int folds) {
+    for (int fold = 0; pictures_ && fold < folds; ++fold) {
+      std::optional<bake::FoldEvidence> kept = restart_.fold(fold);
+      if (!kept) return false;
+      pictures_->keep(fold, bake::fold_plans(std::move(kept->plan)));
+    }
+    return true;
   }
 
   void prepare_pictures() {
@@ -143,6 +214,7 @@ class Bake {
     asset_.packing.bits = a_.bits;
     asset_.packing.dominant = dominant_of(a_, static_cast<int>(asset_.lobes.size()));
     asset_.packing.ranges = ranges();
+    if (ranges_.empty() && !restart_.ranges()) restart_.keep_ranges(asset_.packing.ranges);
     name_asset_files(asset_);
   }
 
@@ -175,6 +247,7 @@ class Bake {
     std::vector<RealisRange> planes(asset_.plane_count());
     if (!plan_.system) return planes;
     if (!ranges_.empty()) return ranges_;
+    if (restart_.ranges()) return *restart_.ranges();
     const bake::BakedBlock baked = bake::bake_block(stack_.info(), sample_, plan_, settings_);
     const std::size_t channels = baked.solved.size();
     const std::vector<std::uint32_t> shared = shared_masks(baked);
@@ -263,31 +336,79 @@ class Bake {
     short_way_ = bake::has_short_way(stack_.info(), plan_, settings_, asset_.packing);
     const bool luminance = short_way_ && !pictures_ && bake::needs_luminance_alone(stack_.info(), plan_);
     const int strip = strip_rows(luminance);
-    const int height = stack_.info().height;
-    Progress progress(static_cast<std::size_t>((height + strip - 1) / strip),
-                      a_.common.quiet || a_.common.json);
-    for (int row = 0; row < height; row += strip) {
-      if (interrupted()) throw std::runtime_error("interrupted; nothing is written");
-      const int rows = std::min(strip, height - row);
-      TexelBlock block = timings_.timed("decode", [&] {
-        return luminance ? stack_.read_luminance(row, rows) : stack_.read_rows(row, rows);
-      });
-      const AssetRows out = timings_.timed("solve", [&] { return rows_of(block); });
-      if (pictures_) timings_.timed("pictures", [&] { pictures_->add(block); });
-      stack_.give_back(std::move(block));
-      timings_.timed("write", [&] { writer.write(out, rows); });
+    const std::vector<Strip> strips = strips_of(strip);
+    Progress progress(strips.size(), a_.common.quiet || a_.common.json);
+    for (const Strip& next : strips) {
+      stop_if_interrupted();
+      if (next.is_kept) {
+        take_over(next, strip, writer);
+      } else {
+        make(next, luminance, writer);
+      }
       progress.step("rows");
+      if (!next.is_kept) reached("strip");
     }
+    restart_.keep_outputs_begun();
     timings_.timed("write", [&] { writer.commit(); });
+    reached("textures");
     cut_values_ = writer.cut_values();
     warn_of_cut_codes();
     if (pictures_) {
-      timings_.timed("pictures", [&] { pictures_->finish(stack_, strip, stop_if_interrupted); });
+      timings_.timed("pictures",
+                     [&] { pictures_->finish(stack_, strip, [this] { stop_if_interrupted(); }); });
     }
   }
 
-  static void stop_if_interrupted() {
-    if (interrupted()) throw std::runtime_error("interrupted; textures are written, not all pictures are");
+  struct Strip {
+    int first = 0;
+    int rows = 0;
+    bool is_kept = false;  // by a bake that was interrupted
+  };
+
+  // From top to bottom: those that are kept, and between them as many rows as fit.
+  std::vector<Strip> strips_of(int most_rows) const {
+    std::vector<Strip> strips;
+    const int height = stack_.info().height;
+    for (int row = 0; row < height; row += strips.back().rows) {
+      const int kept = restart_.rows_at(row);
+      const int room = std::min(most_rows, restart_.next_kept(row, height) - row);
+      strips.push_back({row, kept > 0 ? kept : room, kept > 0});
+    }
+    return strips;
+  }
+
+  void make(const Strip& strip, bool luminance, AssetWriter& writer) {
+    const io::PixelCounts before = stack_.counts();
+    const std::size_t cut_before = cut_codes_;
+    TexelBlock block = timings_.timed("decode", [&] {
+      return luminance ? stack_.read_luminance(strip.first, strip.rows)
+                       : stack_.read_rows(strip.first, strip.rows);
+    });
+    KeptStrip made;
+    made.rows = timings_.timed("solve", [&] { return rows_of(block); });
+    if (pictures_) timings_.timed("pictures", [&] { pictures_->add(block); });
+    stack_.give_back(std::move(block));
+    timings_.timed("write", [&] { writer.write(made.rows, strip.rows); });
+    made.pixels = stack_.counts() - before;
+    made.cut_codes = cut_codes_ - cut_before;
+    timings_.timed("keep", [&] { restart_.keep_strip(strip.first, strip.rows, made); });
+  }
+
+  // Pictures are drawn anew, for which the stack is read all the same.
+  void take_over(const Strip& strip, int most_rows, AssetWriter& writer) {
+    const int end = strip.first + strip.rows;
+    for (int row = strip.first; pictures_ && row < end; row += most_rows) {
+      TexelBlock block =
+          timings_.timed("decode", [&] { return stack_.read_rows(row, std::min(most_rows, end - row)); });
+      timings_.timed("pictures", [&] { pictures_->add(block); });
+      stack_.give_back(std::move(block));
+    }
+    timings_.timed("write", [&] {
+      const KeptStrip kept = restart_.strip(strip.first);
+      writer.write(kept.rows, strip.rows);
+      cut_codes_ += kept.cut_codes;
+      if (!pictures_) pixels_taken_over_ += kept.pixels;
+    });
   }
 
   // Ranges of another asset may be too small for this one.
@@ -310,9 +431,9 @@ class Bake {
     bake["input"] = {{"file", std::filesystem::path(a_.stack).filename().string()},
                      {"sha256", io::sha256_of_file(a_.stack)}};
     bake["seed"] = a_.seed;
-    if (needs_sample_) bake["sample_texels"] = sample_.count();
+    if (needs_sample_) bake["sample_texels"] = sample_texels().size();
     bake["plan"] = plan_json(plan_, stack_.info());
-    const io::PixelCounts& counts = stack_.counts();
+    const io::PixelCounts counts = stack_.counts() + pixels_taken_over_;
     bake["pixels"] = {{"saturated", counts.saturated}, {"non_finite", counts.non_finite}};
     if (io::Json weights = stack_.weights_json(); !weights.is_null()) bake["weights"] = std::move(weights);
     if (cut_values_ > 0) bake["values_cut_to_half"] = cut_values_;
@@ -323,7 +444,10 @@ class Bake {
     if (pictures_) bake["pictures"] = pictures_->json();
     bake["timings_seconds"] = timings_.seconds_json();
     if (a_.timings) bake["timings"] = timings_.units_json();
+    const std::vector<std::filesystem::path> before = files_named_by(json_file_);
     io::write_realis(json_file_, asset_, bake);
+    remove_left_files(json_file_, before);
+    restart_.remove();
     if (a_.common.json) {
       bake["file"] = json_file_.string();
       bake["lobes"] = asset_.lobes.size();
@@ -337,14 +461,16 @@ class Bake {
     }
   }
 
-  const BakeArguments& a_;
+  BakeArguments a_;
   bake::BakeSettings settings_;
   std::vector<RealisRange> ranges_;  // that came with the lobes
   std::string command_line_;
   bool needs_sample_;
+  std::filesystem::path json_file_;
+  BakeRestart restart_;
+  bool reads_sample_;
   BakeStack stack_;
   RealisAsset asset_;
-  std::filesystem::path json_file_;
   TexelBlock sample_;
   bake::BakePlan plan_;
   bake::Evidence evidence_;
@@ -352,6 +478,7 @@ class Bake {
   bool short_way_ = false;
   std::size_t cut_values_ = 0;
   std::size_t cut_codes_ = 0;
+  io::PixelCounts pixels_taken_over_;
   BakeTimings timings_;
 };
 
@@ -366,10 +493,10 @@ Command add_bake_command(CLI::App& program) {
       "that it\n"
       "has not seen.");
   add_bake_options(*app, *a);
-  return {app, [a](const std::string& command_line) {
+  return {app, [a, app](const std::string& command_line) {
             const ThreadLimit threads(a->common.threads);
             keep_freed_pages();
-            return Bake(*a, command_line).run();
+            return Bake(*a, *app, command_line).run();
           }};
 }
 

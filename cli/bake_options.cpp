@@ -107,6 +107,14 @@ void add_bake_options(CLI::App& app, BakeArguments& a) {
   app.add_flag("--zip", a.zip, "compress EXR files, which takes longer than the bake and saves little");
   app.add_flag("--timings", a.timings,
                "print the time of each phase in units of decoding alone, and peak memory");
+  app.add_flag("--fresh", a.fresh,
+               "begin anew, where the same command would go on from what an interrupted bake has left in "
+               "NAME.realis.part");
+  app.add_option("--stop-after", a.stop_after,
+                 "stop as Ctrl-C does when the plan, one fold more, the evidence, one strip more, or the "
+                 "textures are done; the same command goes on from there")
+      ->check(CLI::IsMember({"plan", "fold", "evidence", "strip", "textures"}))
+      ->take_last();
   app.add_option("--fade-albedo", a.fade_albedo, "distance in linear albedo at which the correction is gone")
       ->check(CLI::PositiveNumber)
       ->capture_default_str()

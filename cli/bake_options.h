@@ -42,6 +42,8 @@ struct BakeArguments {
   bool contours = false;
   bool zip = false;
   bool timings = false;
+  bool fresh = false;
+  std::string stop_after;  // a phase; empty: none
   double fade_albedo = RealisFade{}.albedo_range;
   double fade_normal_deg = RealisFade{}.normal_range_deg;
   std::uint64_t seed = 1;

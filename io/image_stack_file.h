@@ -40,6 +40,25 @@ struct PixelCounts {
   std::size_t non_finite = 0;  // their values are 0
   std::size_t masked_texels = 0;
   std::size_t bad_texels = 0;  // without a normal, or black in the flat frame
+
+  PixelCounts& operator+=(const PixelCounts& more) {
+    pixels += more.pixels;
+    saturated += more.saturated;
+    non_finite += more.non_finite;
+    masked_texels += more.masked_texels;
+    bad_texels += more.bad_texels;
+    return *this;
+  }
+  // Of what was counted since.
+  friend PixelCounts operator-(PixelCounts now, const PixelCounts& before) {
+    now.pixels -= before.pixels;
+    now.saturated -= before.saturated;
+    now.non_finite -= before.non_finite;
+    now.masked_texels -= before.masked_texels;
+    now.bad_texels -= before.bad_texels;
+    return now;
+  }
+  friend PixelCounts operator+(PixelCounts a, const PixelCounts& b) { return a += b; }
 };
 
 // Values of a texel have weight 0 where they are saturated or not finite, or where the texel is masked;
