@@ -7,23 +7,21 @@
 
 namespace brdfit::io {
 
-// What is wrong with a file: its name, what was found, what was expected, and what to do about it.
-// what() is all of it on one line: "FILE: FOUND (expected EXPECTED); ADVICE".
+// A text for one line of a terminal: control characters, which files may hold in their strings, become '?',
+// and what is longer than a screen is cut, at a whole character.
+std::string plain_line(std::string text);
+
+// What is wrong with a file: its name, what was found, what was expected, and what to do about it, each as
+// plain_line() has it. what() is all of it: "FILE: FOUND (expected EXPECTED); ADVICE".
 class IoError : public std::runtime_error {
  public:
   // Whether the input cannot be used, or writing failed: they end in different exit codes.
   enum class Side { kInput, kOutput };
 
-  IoError(Side side, std::string file, std::string found, std::string expected, std::string advice = "")
-      : std::runtime_error(file + ": " + found + (expected.empty() ? "" : " (expected " + expected + ")") +
-                           (advice.empty() ? "" : "; " + advice)),
-        side_(side),
-        file_(std::move(file)),
-        found_(std::move(found)),
-        expected_(std::move(expected)),
-        advice_(std::move(advice)) {}
+  IoError(Side side, std::string file, std::string found, std::string expected, std::string advice = "");
 
   Side side() const { return side_; }
+  // As it was given, control characters and all.
   const std::string& file() const { return file_; }
   const std::string& found() const { return found_; }
   const std::string& expected() const { return expected_; }
