@@ -1,25 +1,50 @@
 // Names, sizes and checks of baked assets.
 #include "brdf/realis_asset.h"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
 namespace brdfit {
 namespace {
 
+// As many as a bake makes; a mask of dominant lobes has room for a few more.
+constexpr std::size_t kMostLobes = 16;
 constexpr std::array<std::string_view, 3> kColours{"luminance", "scaled-chroma", "rgb"};
 
+bool is_unit(const Vec3& v) {
+  return std::abs(v.x * v.x + v.y * v.y + v.z * v.z - 1.0) < 1e-6;
+}
+
 std::string complaint_about(const Lobe& lobe) {
-  const double squared = lobe.axis.x * lobe.axis.x + lobe.axis.y * lobe.axis.y + lobe.axis.z * lobe.axis.z;
-  if (!(std::abs(squared - 1.0) < 1e-6)) return "the axis of a lobe is not a unit vector";
+  if (!is_unit(lobe.axis)) return "the axis of a lobe is not a unit vector";
   if (!(lobe.sharpness >= 0.0 && std::isfinite(lobe.sharpness))) return "the sharpness of a lobe is negative";
   if (!(lobe.cos_cut_off >= -1.0 && lobe.cos_cut_off < 1.0))
     return "the cut-off of a lobe is outside [-1, 1)";
   return "";
 }
 
+// Of the folder that the asset lies in, and no other.
+bool is_plain_file_name(std::string_view name) {
+  const bool has_odd = std::any_of(name.begin(), name.end(),
+                                   [](char c) { return c == '/' || (static_cast<unsigned char>(c) < 0x20); });
+  return !has_odd && name != "." && name != "..";
+}
+
+std::string complaint_about(const RealisFiles& files) {
+  std::vector<std::string> names = files.packed;
+  for (const std::string* name : {&files.amplitudes, &files.dominant, &files.chroma, &files.surface,
+                                  &files.albedo, &files.normals, &files.confidence}) {
+    names.push_back(*name);
+  }
+  const auto odd = std::find_if_not(names.begin(), names.end(), is_plain_file_name);
+  return odd == names.end() ? "" : "\"" + *odd + "\" is no plain name of a file";
+}
+
 std::string complaint_about(const RealisAsset& asset) {
   if (asset.width <= 0 || asset.height <= 0) return "the picture has no texels";
+  if (!is_unit(asset.view)) return "the view is not a unit vector";
+  if (asset.lobes.size() > kMostLobes) return "there are more than 16 lobes";
   for (const Lobe& lobe : asset.lobes) {
     if (std::string complaint = complaint_about(lobe); !complaint.empty()) return complaint;
   }
@@ -36,6 +61,7 @@ std::string complaint_about(const RealisAsset& asset) {
   if (!(asset.fade.normal_range_deg > 0.0 && asset.fade.normal_range_deg <= 180.0)) {
     return "the fade's angle is outside (0, 180]";
   }
+  if (std::string complaint = complaint_about(asset.files); !complaint.empty()) return complaint;
   std::string why;
   if (asset.base && !asset.base->is_valid(&why)) return "material: " + why;
   return "";

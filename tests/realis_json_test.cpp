@@ -71,6 +71,16 @@ TEST(RealisJson, RefusesWhatDoesNotAgree) {
   expect_refused([](Json& json) { json["base"] = "phong"; });
   expect_refused([](Json& json) { json["width"] = 0; });
   expect_refused([](Json& json) { json["fade"]["albedo_range"] = 0.0; });
+  expect_refused([](Json& json) { json["view"] = Json::array({0.0, 0.0, 2.0}); });
+  expect_refused([](Json& json) {
+    json["lobes"] = Json(17, json["lobes"][0]);
+    json["packing"]["step"] = Json(17, 0.1);
+    json["packing"]["zero"] = Json(17, 0);
+  });
+  for (const char* name : {"../a.exr", "/a.exr", "..", "a\nb"}) {
+    expect_refused([name](Json& json) { json["files"]["amplitudes"] = name; });
+    expect_refused([name](Json& json) { json["files"]["packed"][0] = name; });
+  }
 }
 
 TEST(RealisJson, DoesNotWriteAnAssetThatIsNotValid) {

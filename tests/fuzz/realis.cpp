@@ -47,7 +47,7 @@ class AssetFolder {
 void check(const RealisAsset& asset) {
   std::string why;
   require(asset.is_valid(&why), "an asset that is read is valid: " + why);
-  require(is_unit(asset.view), "the view is unit");
+  require(std::abs(std::hypot(asset.view.x, asset.view.y, asset.view.z) - 1.0) < 1e-6, "the view is unit");
   require(std::isfinite(asset.bytes_per_texel()), "the bytes of a texel are finite");
   const std::vector<std::string> channels = realis_channel_names(asset);
   const auto is_word = [](const std::string& name) {
