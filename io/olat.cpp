@@ -17,6 +17,8 @@ namespace fs = std::filesystem;
 using Side = IoError::Side;
 
 constexpr double kLargest = 1e9;
+// Of a near light above the plane, in pixels: nearer ones would have no direction at a texel below them.
+constexpr double kLeastHeight = 1e-3;
 
 bool are_numbers(const Json& value, std::size_t count) {
   return value.is_array() && value.size() == count &&
@@ -179,12 +181,13 @@ class Manifest {
     if (root_.has("origin")) source.plane.origin = vector_of(root_, "origin");
     source.units = root_.string("units", "");
     for (const StackPicture& picture : source.pictures) {
-      if (!picture.light.position || picture.light.position->z > source.plane.origin.z) continue;
+      const double least = source.plane.origin.z + kLeastHeight * source.plane.pixel_size;
+      if (!picture.light.position || picture.light.position->z > least) continue;
       throw IoError(
           Side::kInput, root_.file(),
           fmt::format("the light of {} is below the surface plane (z {}, plane {})",
                       picture.file.filename().string(), picture.light.position->z, source.plane.origin.z),
-          "a position above it");
+          fmt::format("a position above it, by {} pixels at least", kLeastHeight));
     }
   }
 

@@ -191,6 +191,10 @@ TEST_F(StackSourceTest, EveryMistakeInAManifestIsNamed) {
        },
        "below the surface plane"},
       {[](Json& m) {
+         m["images"][0]["position"] = {0, 0, 1e-170};
+       },
+       "a position above it"},
+      {[](Json& m) {
          m["images"][1]["direction"] = {30, 20, 400};
        },
        "has length"},
