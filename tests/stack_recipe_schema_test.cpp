@@ -123,7 +123,7 @@ TEST(StackRecipeSchema, RefusesWhatTheReaderRefuses) {
     {"faults": {"gains": [[-1, 2]]}}, {"faults": {"gains": {}}}, {"faults": {"swapped": [[1, 2.5]]}},
     {"faults": {"swapped": [[1]]}}, {"faults": {"swapped": [[10000, 1]]}}, {"faults": {"upside_down": 0}},
     {"faults": {"hot_pixels": -1}}, {"faults": {"hot_pixels": 1000001}}, {"faults": {"dust": 1}},
-    {"files": {"format": 1}}, {"files": {"transfer": "log"}}, {"files": {"manifest": "xml"}},
+    {"files": {"format": 1}}, {"files": {"format": "../exr"}}, {"files": {"transfer": "log"}}, {"files": {"manifest": "xml"}},
     {"files": {"give_normals": "yes"}}, {"files": {"depth": 8}},
     {"files": {"manifest": "lp"}, "lights": {"distance": 2}}, {"seed": -1}, {"seed": 0.5}
   ])");

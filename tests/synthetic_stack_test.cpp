@@ -252,6 +252,9 @@ TEST(StackRecipe, RefusesWhatIsUnknownOrDoesNotAgree) {
   expect_refused([](io::Json& json) { json["faults"]["swapped"] = io::Json::array({io::Json::array({1})}); });
   expect_refused([](io::Json& json) { json["cast_shadows"] = 1; });
   expect_refused([](io::Json& json) { json["files"]["transfer"] = "log"; });
+  for (const char* format : {"", "/../exr", "exr/", "e.xr"}) {
+    expect_refused([format](io::Json& json) { json["files"]["format"] = format; });
+  }
   expect_refused([](io::Json& json) { json["name"] = "a/b"; });
   expect_refused([](io::Json& json) { json["lights"]["count"] = 0; });
 }

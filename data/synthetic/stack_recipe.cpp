@@ -3,6 +3,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
@@ -127,6 +128,10 @@ bool is_affine_in_base_colour(const Material& material) {
   return material.model() != Model::kBurley && material.number("metallic") == 0.0;
 }
 
+bool is_letter_or_digit(char c) {
+  return (c >= '0' && c <= '9') || (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z');
+}
+
 // The first complaint about what the parts of a recipe demand of each other.
 std::string complaint_of(const StackRecipe& recipe) {
   const auto is_light = [&](int light) { return light >= 0 && light < recipe.lights.count; };
@@ -146,6 +151,10 @@ std::string complaint_of(const StackRecipe& recipe) {
     if (recipe.albedo_variation > 0.0 && !is_affine_in_base_colour(material)) {
       return "albedo_variation needs materials without metallic that are not Burley";
     }
+  }
+  const std::string& format = recipe.files.format;
+  if (format.empty() || !std::all_of(format.begin(), format.end(), is_letter_or_digit)) {
+    return fmt::format("files.format is \"{}\", no ending of a file", format);
   }
   if (recipe.files.transfer != "linear" && recipe.files.transfer != "srgb") {
     return fmt::format("files.transfer is \"{}\", not linear or srgb", recipe.files.transfer);
