@@ -18,12 +18,14 @@ struct ProgramResult {
   std::string err;
 };
 
-// arguments: a shell's words after the program's name; scratch: a folder for its output streams.
-inline ProgramResult run_brdfit(const std::string& arguments, const std::filesystem::path& scratch) {
+// arguments: a shell's words after the program's name; scratch: a folder for its output streams; before: what
+// the shell is told before it ("cd DIR && LC_ALL=C").
+inline ProgramResult run_brdfit(const std::string& arguments, const std::filesystem::path& scratch,
+                                const std::string& before = "") {
   const std::string out = (scratch / "stdout.txt").string();
   const std::string err = (scratch / "stderr.txt").string();
   const std::string command =
-      std::string(BRDFIT_PROGRAM) + " " + arguments + " >'" + out + "' 2>'" + err + "'";
+      before + " " + std::string(BRDFIT_PROGRAM) + " " + arguments + " >'" + out + "' 2>'" + err + "'";
   const int status = std::system(command.c_str());
   ProgramResult result;
   if (WIFEXITED(status)) result.exit_code = WEXITSTATUS(status);
