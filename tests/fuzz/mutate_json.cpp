@@ -30,7 +30,7 @@ class Mutation {
     Json& chosen = *all[below(all.size())];
     switch (below(5)) {
       case 0:
-        chosen = odd_value();
+        chosen = odd_value(chosen);
         break;
       case 1:
         chosen = Json(*all[below(all.size())]);
@@ -51,36 +51,20 @@ class Mutation {
     return std::uniform_int_distribution<std::size_t>(0, count - 1)(random_);
   }
 
-  Json odd_value() {
-    const std::vector<Json> values = {0,
-                                      1,
-                                      -1,
-                                      0.5,
-                                      2,
-                                      64,
-                                      1e-320,
-                                      1e308,
-                                      -0.0,
-                                      1e9,
-                                      1e-9,
-                                      90,
-                                      180,
-                                      "",
-                                      "a.png",
-                                      "lambert",
-                                      "../a",
-                                      true,
-                                      false,
-                                      nullptr,
-                                      "a\n",
-                                      Json::array(),
-                                      Json::object(),
-                                      INT64_MAX,
-                                      UINT64_MAX,
-                                      INT64_MIN,
-                                      1e-160,
-                                      {0, 0, 1},
-                                      {0.6, 0, 0.8}};
+  // Mostly of the kind that is there: what is of another kind is refused early.
+  Json odd_value(const Json& like) {
+    static const std::vector<Json> numbers = {0,     1,      -1,      0.5,  2,         64,         33,
+                                              1e308, 1e-320, -0.0,    1e9,  1e-9,      1e-160,     90,
+                                              180,   1e6,    1000000, 4096, INT64_MAX, UINT64_MAX, INT64_MIN};
+    static const std::vector<Json> texts = {"",    "a",   "a.png", "lambert", "../a",
+                                            "a/b", "a\n", "rgb",   "1e-300"};
+    static const std::vector<Json> others = {true,           false,          nullptr,       Json::array(),
+                                             Json::object(), {0, 0, 1},      {0.6, 0, 0.8}, {0, 0, -1},
+                                             {1e-200, 1, 1}, {1e9, 1e9, 1e9}};
+    const bool same_kind = below(8) != 0;
+    const std::vector<Json>& values = same_kind && like.is_number()   ? numbers
+                                      : same_kind && like.is_string() ? texts
+                                                                      : others;
     return values[below(values.size())];
   }
 
@@ -112,7 +96,7 @@ extern "C" std::size_t LLVMFuzzerCustomMutator(std::uint8_t* data, std::size_t s
   Json value = Json::parse(data, data + size, nullptr, false);
   if (value.is_discarded()) return LLVMFuzzerMutate(data, size, max_size);
   Mutation mutation(seed);
-  for (unsigned k = 0; k <= seed / 4 % 3; ++k) mutation.apply(value);
+  mutation.apply(value);
   const std::string text = value.dump(-1, ' ', false, Json::error_handler_t::replace);
   if (text.size() > max_size) return LLVMFuzzerMutate(data, size, max_size);
   std::memcpy(data, text.data(), text.size());
