@@ -173,6 +173,14 @@ void parameters_from_json(ObjectReader reader, Effects allowed, Material& materi
   reader.finish();
 }
 
+// Sets the effects, and what belongs to others to its default: it changes nothing and is not written.
+void use_effects(Effects effects, Material& material) {
+  for (const ParameterInfo& info : parameters_of(material.model())) {
+    if (!effects.has(info.effect)) material.set(info.name, info.default_value);
+  }
+  material.set_effects(effects);
+}
+
 }  // namespace
 
 Json material_to_json(const Material& material) {
@@ -200,7 +208,7 @@ Material material_from_json(const Json& json, const std::string& file, const std
   }
   if (reader.has("fit")) reader.object("fit");  // evidence, for people and tools
   reader.finish();
-  material.set_effects(has_effects ? effects : effects_in_use(material));
+  use_effects(has_effects ? effects : effects_in_use(material), material);
   return material;
 }
 

@@ -162,6 +162,19 @@ TEST(MaterialJson, WithoutAListTheEffectsAreThoseInUse) {
   EXPECT_EQ(material.options(), MaterialOptions());
 }
 
+TEST(MaterialJson, WithoutAListWhatBelongsToEffectsThatAreOffIsAtItsDefault) {
+  Material burley(Model::kBurley);
+  Json json = material_to_json(burley);
+  json.erase("effects");
+  json["parameters"]["sheen"] = 0.5;
+  json["parameters"]["clearcoat"] = 0.0;
+  json["parameters"]["clearcoat_gloss"] = 0.75;
+  const Material read = material_from_json(json, "x.json");
+  EXPECT_EQ(read.number("sheen"), 0.5);
+  EXPECT_EQ(read.number("clearcoat_gloss"), burley.number("clearcoat_gloss"));
+  EXPECT_EQ(material_from_json(material_to_json(read), "x.json"), read);
+}
+
 TEST(MaterialJson, AMaterialInsideAnotherDocumentNamesItsPlace) {
   Json json = sound_document();
   json["parameters"]["roughness"] = 3;
