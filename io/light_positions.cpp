@@ -124,8 +124,7 @@ class LightFile {
     std::replace(written.begin(), written.end(), '\\', '/');
     const fs::path as_written = file_.parent_path() / written;
     const fs::path beside = file_.parent_path() / fs::path(written).filename();
-    std::error_code ignored;
-    if (!fs::is_regular_file(as_written, ignored) && fs::is_regular_file(beside, ignored)) return beside;
+    if (!is_file(as_written) && is_file(beside)) return beside;
     require_file(as_written, name_, where, "the picture");
     return as_written;
   }

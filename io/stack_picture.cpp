@@ -52,10 +52,15 @@ void settle_pictures(std::vector<StackPicture>& pictures, const std::string& fil
                 "every picture once, with its light", "remove one of the two");
 }
 
+bool is_file(const fs::path& wanted) {
+  // The system would look for the part before a zero byte.
+  std::error_code error;
+  return wanted.native().find('\0') == std::string::npos && fs::is_regular_file(wanted, error);
+}
+
 void require_file(const fs::path& wanted, const std::string& file, const std::string& where,
                   const std::string& what) {
-  std::error_code error;
-  if (fs::is_regular_file(wanted, error)) return;
+  if (is_file(wanted)) return;
   throw IoError(Side::kInput, file, fmt::format("{}: {} {} is not there", where, what, wanted.string()),
                 "paths relative to this file");
 }

@@ -17,6 +17,9 @@ Vec3 light_direction(const Vec3& direction, const std::string& file, const std::
 // Sorts pictures by name and names their lights. Throws IoError (kInput) when a picture is listed twice.
 void settle_pictures(std::vector<StackPicture>& pictures, const std::string& file);
 
+// Whether a regular file has that name.
+bool is_file(const std::filesystem::path& wanted);
+
 // Throws IoError (kInput) unless a regular file is there. what: "the picture", "the mask".
 void require_file(const std::filesystem::path& wanted, const std::string& file, const std::string& where,
                   const std::string& what);

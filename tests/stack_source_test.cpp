@@ -182,6 +182,7 @@ TEST_F(StackSourceTest, EveryMistakeInAManifestIsNamed) {
       {[](Json& m) { m["images"][0]["weight"] = "none.png"; }, "'images[0].weight': the weight map"},
       {[](Json& m) { m["images"][1]["shadow"] = "none.png"; }, "'images[1].shadow': the shadow map"},
       {[](Json& m) { m["images"][1]["file"] = "./a.png"; }, "a.png is listed twice"},
+      {[](Json& m) { m["images"][1]["file"] = std::string("b.png\0", 6); }, "b.png? is not there"},
       {[](Json& m) {
          m["images"][1]["direction"] = {0.6, 0, -0.8};
        },
