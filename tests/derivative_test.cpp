@@ -147,6 +147,18 @@ TEST(DerivativesInCorners, OfCallistoAreFinite) {
   expect_finite_in_corners<kCallistoProductSize>(Model::kCallisto, kOther);
 }
 
+// A tint divides by the luminance.
+TEST(Derivatives, OfTintsAreFiniteForTheDarkestColours) {
+  using Jet = ceres::Jet<double, 1>;
+  for (const double dark : {5e-324, 1e-310, 1e-200, 1e-40, 1e-25, 0.0}) {
+    const Jet base(dark, 0);
+    const Jet tint = kernel::burley_tint(base, base * 0.3);
+    EXPECT_TRUE(std::isfinite(tint.a)) << dark;
+    EXPECT_TRUE(std::isfinite(tint.v[0])) << dark;
+    EXPECT_NEAR(tint.a, dark * 0.3 > BRDF_TINY ? 1.0 / 0.3 : 1.0, 1e-12) << dark;
+  }
+}
+
 TEST(Derivatives, OfZeroToTheZeroIsZero) {
   using Jet = ceres::Jet<double, 1>;
   const Jet power = kernel::power_from_log(0.0, kernel::log_or_zero(0.0), Jet(0.0, 0));
