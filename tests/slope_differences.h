@@ -62,20 +62,23 @@ inline std::array<long double, 3> difference(const Setting& s, const std::vector
 inline std::string describe_slope(const Setting& s, std::size_t k) {
   const ProductEntry entry = product_layout(s.model)[k];
   return std::string(name_of(s.model)) + ", d/d " + std::string(entry.parameter) + "[" +
-         std::to_string(entry.channel) + "], effects " + std::to_string(s.effects.bits());
+         std::to_string(entry.channel) + "], effects " + std::to_string(s.effects.bits()) + ", cos_i " +
+         std::to_string(s.geometry.cos_i) + ", cos_o " + std::to_string(s.geometry.cos_o) + ", cos_h " +
+         std::to_string(s.geometry.cos_h) + ", cos_d " + std::to_string(s.geometry.cos_d);
 }
 
-// jets: those of the setting at q.
+// jets: those of the setting at q. rounding: of the difference, where it is one of large terms.
 template <int N>
 void expect_slope(const Setting& s, const std::vector<double>& q,
-                  const std::array<ceres::Jet<double, N>, 3>& jets, std::size_t k, int side) {
+                  const std::array<ceres::Jet<double, N>, 3>& jets, std::size_t k, int side,
+                  double rounding = 0.0) {
   const bool is_roughness = product_layout(s.model)[k].parameter == "roughness";
   const double step = 1e-5 * (is_roughness ? q[k] : std::max(1.0, std::abs(q[k])));
   const auto expected = difference(s, q, k, step, side);
   for (std::size_t c = 0; c < 3; ++c) {
     const auto slope = static_cast<double>(expected[c]);
     ASSERT_NEAR(jets[c].v[static_cast<Eigen::Index>(k)], slope,
-                1e-8 * (std::abs(slope) + std::abs(jets[c].a)))
+                1e-8 * (std::abs(slope) + std::abs(jets[c].a)) + rounding)
         << describe_slope(s, k) << " = " << q[k] << ", side " << side;
   }
 }
