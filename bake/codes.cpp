@@ -127,11 +127,26 @@ CodeSearch::CodeSearch(const TexelEquations& equations, std::uint32_t mask)
   feedback_ = upper.diagonal().cwiseInverse().asDiagonal() * upper;
 }
 
+bool CodeSearch::is_none_closer(const LobeVector& goal, double error, double* none) const {
+  double sum = 0.0;
+  // From the last lobe on, as its term is known at once, and mostly more than the error already.
+  for (Eigen::Index k = goal.size() - 1; k >= 0; --k) {
+    double off = goal[k];
+    for (Eigen::Index j = k + 1; j < goal.size(); ++j) off += feedback_(k, j) * goal[j];
+    sum += weights_[k] * off * off;
+    if (sum >= error) return false;
+  }
+  *none = sum;
+  return goal.size() > 0;
+}
+
 double CodeSearch::find(const Quantiser& quantiser, const LobeVector& shift, int steps,
                         std::span<int> codes) const {
   const LobeVector goal = shift.size() > 0 ? LobeVector(best_ + shift) : best_;
   const Walk walk(*this, quantiser, goal, steps);
   std::fill(codes.begin(), codes.end(), 0);
+  double none = 0.0;
+  if (is_none_closer(goal, walk.least(), &none)) return none;
   for (std::size_t k = 0; k < lobes_.size(); ++k) codes[static_cast<std::size_t>(lobes_[k])] = walk.code(k);
   return walk.least();
 }

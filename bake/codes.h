@@ -45,8 +45,9 @@ class CodeSearch {
 
   // Finds codes whose error above that of the best amplitudes, moved by `shift`, is least and returns that
   // error. The first that are tried round each amplitude given those that are rounded already (nearest plane,
-  // Babai 1986); others follow while there are steps left, nearest first (Schnorr and Euchner 1994). shift:
-  // per lobe of the mask, or empty. codes: per lobe of the equations, overwritten.
+  // Babai 1986); others follow while there are steps left, nearest first (Schnorr and Euchner 1994). Never
+  // worse than codes of 0 alone. shift: per lobe of the mask, or empty. codes: per lobe of the equations,
+  // overwritten.
   double find(const Quantiser& quantiser, const LobeVector& shift, int steps, std::span<int> codes) const;
 
   // A shift that is spread evenly over the amplitudes whose codes are the same, as noise is over [-0.5, 0.5):
@@ -57,6 +58,10 @@ class CodeSearch {
 
  private:
   class Walk;
+
+  // Whether codes of 0 leave less than that error of these amplitudes: *none. So it may be where lobes almost
+  // coincide, as the first codes that a walk meets are then far from the nearest.
+  bool is_none_closer(const LobeVector& goal, double error, double* none) const;
 
   std::vector<int> lobes_;
   LobeVector best_;

@@ -260,12 +260,12 @@ class TexelSolver {
     const typename D::Tag wide;
     const hn::Rebind<float, typename D::Tag> narrow;
     for (std::size_t at = 0; at < kStep; at += D::size) {
-      D cos_axis(0.0);
-      for (std::size_t c = 0; c < 3; ++c) {
-        const D part = D::of(hn::PromoteTo(wide, hn::LoadU(narrow, direction + c * kStep + at)));
-        cos_axis = multiply_add(D(lobe[c]), part, cos_axis);
-      }
-      const D value = kernel::windowed_spherical_gaussian(cos_axis, D(lobe[3]), D(lobe[4]));
+      const auto part = [&](std::size_t c) {
+        return D::of(hn::PromoteTo(wide, hn::LoadU(narrow, direction + c * kStep + at)));
+      };
+      const D one_minus_cos =
+          kernel::one_minus_cos_between(D(lobe[0]), D(lobe[1]), D(lobe[2]), part(0), part(1), part(2));
+      const D value = kernel::windowed_lobe(one_minus_cos, D(lobe[3]), D(lobe[4]));
       hn::StoreU(hn::DemoteTo(narrow, value.v), narrow, values + at);
     }
   }

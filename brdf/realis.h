@@ -46,8 +46,9 @@ constexpr int realis_textures(int slots, int bits) {
 
 // The lobe's value for a light in that direction (unit, towards the light), in [0, 1].
 inline double eval(const Lobe& lobe, const Vec3& direction) {
-  const double cos_axis = lobe.axis.x * direction.x + lobe.axis.y * direction.y + lobe.axis.z * direction.z;
-  return kernel::windowed_spherical_gaussian(cos_axis, lobe.sharpness, lobe.cos_cut_off);
+  const double one_minus_cos = kernel::one_minus_cos_between(lobe.axis.x, lobe.axis.y, lobe.axis.z,
+                                                             direction.x, direction.y, direction.z);
+  return kernel::windowed_lobe(one_minus_cos, lobe.sharpness, lobe.cos_cut_off);
 }
 
 }  // namespace brdfit

@@ -65,7 +65,7 @@ Vector at_cosine(double cosine, Draw& draw) {
 }
 
 double small_cosine(Draw& draw) {
-  return draw.power_of_ten(-37.0, -1.0);
+  return draw.power_of_ten(-25.0, -1.0);
 }
 
 double any_cosine(Draw& draw) {

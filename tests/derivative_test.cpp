@@ -3,79 +3,20 @@
 #include <ceres/jet.h>
 #include <gtest/gtest.h>
 
-#include "tests/product_eval.h"
 #include "tests/random_parameters.h"
+#include "tests/slope_differences.h"
 
 namespace brdfit {
 namespace {
 
+using testing_support::jets_of;
 using testing_support::Pair;
 using testing_support::Random;
-using Number = long double;
-
-// A model with its options and effects, at one geometry.
-struct Setting {
-  Model model;
-  MaterialOptions options;
-  Effects effects;
-  kernel::Geometry<double> geometry;
-};
-
-template <class T>
-std::array<T, 3> evaluate(const Setting& s, const std::vector<T>& q) {
-  return testing_support::eval_product(s.model, s.options, s.effects, q.data(), s.geometry);
-}
-
-template <int N>
-std::array<ceres::Jet<double, N>, 3> jets_of(const Setting& s, const std::vector<double>& q) {
-  std::vector<ceres::Jet<double, N>> variables;
-  for (int k = 0; k < N; ++k) variables.emplace_back(q[static_cast<std::size_t>(k)], k);
-  return evaluate(s, variables);
-}
-
-// d f_c / d q_k by differences of fourth order in extended precision: central where side is 0, else one-sided
-// towards the sign of side.
-std::array<Number, 3> difference(const Setting& s, const std::vector<double>& q, std::size_t k, double step,
-                                 int side) {
-  const std::vector<Number> exact(q.begin(), q.end());
-  const auto at = [&](int steps) {
-    std::vector<Number> moved = exact;
-    moved[k] += Number(step) * steps;
-    return evaluate(s, moved);
-  };
-  struct Tap {
-    int steps;
-    Number weight;
-  };
-  const std::vector<Tap> central = {{-2, 1}, {-1, -8}, {1, 8}, {2, -1}};
-  const std::vector<Tap> one_sided = {{0, -25}, {side, 48}, {2 * side, -36}, {3 * side, 16}, {4 * side, -3}};
-  std::array<Number, 3> sum = {0, 0, 0};
-  for (const Tap& tap : side == 0 ? central : one_sided) {
-    const auto f = at(tap.steps);
-    for (std::size_t c = 0; c < 3; ++c) sum[c] += tap.weight * f[c];
-  }
-  for (Number& x : sum) x /= 12 * Number(step) * (side == 0 ? 1 : side);
-  return sum;
-}
-
-std::string what(const Setting& s, std::size_t k) {
-  const ProductEntry entry = product_layout(s.model)[k];
-  return std::string(name_of(s.model)) + ", d/d " + std::string(entry.parameter) + "[" +
-         std::to_string(entry.channel) + "], effects " + std::to_string(s.effects.bits());
-}
+using testing_support::Setting;
 
 template <int N>
 void expect_derivative(const Setting& s, const std::vector<double>& q, std::size_t k, int side) {
-  const bool is_roughness = product_layout(s.model)[k].parameter == "roughness";
-  const double step = 1e-5 * (is_roughness ? q[k] : std::max(1.0, std::abs(q[k])));
-  const auto expected = difference(s, q, k, step, side);
-  const auto actual = jets_of<N>(s, q);
-  for (std::size_t c = 0; c < 3; ++c) {
-    const auto slope = static_cast<double>(expected[c]);
-    ASSERT_NEAR(actual[c].v[static_cast<Eigen::Index>(k)], slope,
-                1e-8 * (std::abs(slope) + std::abs(actual[c].a)))
-        << what(s, k) << " = " << q[k] << ", side " << side;
-  }
+  testing_support::expect_slope<N>(s, q, jets_of<N>(s, q), k, side);
 }
 
 // Every entry of the product form, at random interior parameters.
@@ -126,18 +67,7 @@ std::vector<kernel::Geometry<double>> exact_geometries() {
   for (const double cos_h : {0.0, 1.0}) {
     for (const double cos_d : {0.0, 1.0}) {
       for (const double cosine : {1e-300, 1.0}) {
-        kernel::Geometry<double> g{};
-        g.cos_i = cosine;
-        g.cos_o = cosine;
-        g.wi_x = 1.0 - cosine;
-        g.wo_x = 1.0 - cosine;
-        g.cos_h = cos_h;
-        g.h_x = 1.0 - cos_h;
-        g.cos_d = cos_d;
-        g.cos_k = kernel::cos_k_from_cos_d(cos_d);
-        g.one_minus_cos_h = 1.0 - cos_h;
-        g.one_minus_cos_d = 1.0 - cos_d;
-        result.push_back(g);
+        result.push_back(testing_support::exact_geometry(cos_h, cos_d, cosine, cosine));
       }
     }
   }
@@ -215,6 +145,18 @@ TEST(DerivativesInCorners, OfBurleyAreFinite) {
 TEST(DerivativesInCorners, OfCallistoAreFinite) {
   expect_finite_in_corners<kCallistoProductSize>(Model::kCallisto, kDefault);
   expect_finite_in_corners<kCallistoProductSize>(Model::kCallisto, kOther);
+}
+
+// A tint divides by the luminance.
+TEST(Derivatives, OfTintsAreFiniteForTheDarkestColours) {
+  using Jet = ceres::Jet<double, 1>;
+  for (const double dark : {5e-324, 1e-310, 1e-200, 1e-40, 1e-25, 0.0}) {
+    const Jet base(dark, 0);
+    const Jet tint = kernel::burley_tint(base, base * 0.3);
+    EXPECT_TRUE(std::isfinite(tint.a)) << dark;
+    EXPECT_TRUE(std::isfinite(tint.v[0])) << dark;
+    EXPECT_NEAR(tint.a, dark * 0.3 > BRDF_TINY ? 1.0 / 0.3 : 1.0, 1e-12) << dark;
+  }
 }
 
 TEST(Derivatives, OfZeroToTheZeroIsZero) {

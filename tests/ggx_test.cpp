@@ -119,6 +119,20 @@ TEST(GgxV, EqualsSmithAsHeitzWritesIt) {
   }
 }
 
+// V grows as 1 / cosine, and times cos_i it has a limit there: nothing may cut it off above the horizon.
+TEST(GgxV, EqualsSmithDownToTheHorizonInDoubleAndFloat) {
+  for (const double alpha : {1e-4, 0.3, 1.0}) {
+    for (const double cosine : {1.01 * BRDF_HORIZON, 1e-20, 1e-6}) {
+      const auto expected =
+          static_cast<double>(reference::ggx_v(alpha, cosine, cosine, Masking::kCorrelated));
+      EXPECT_NEAR(ggx_v(alpha, cosine, cosine, BRDF_MASKING_CORRELATED), expected, 1e-13 * expected);
+      const auto single = static_cast<float>(cosine);
+      const auto v = ggx_v(static_cast<float>(alpha), single, single, BRDF_MASKING_CORRELATED);
+      EXPECT_NEAR(static_cast<double>(v), expected, 1e-6 * expected) << alpha << " " << cosine;
+    }
+  }
+}
+
 TEST(GgxV, OfCorrelatedHeightsIsNeverBelowTheSeparableForm) {
   for (const double cos_i : {0.01, 0.3, 1.0}) {
     for (const double cos_o : {0.05, 0.6}) {

@@ -70,11 +70,11 @@ burley_shape(Real roughness, Real subsurface, Real anisotropic, Real clearcoat_g
 }
 
 // One channel of the tint of a base colour of the given luminance, 0.3 r + 0.6 g + 0.1 b; white where it is
-// 0.
+// 0: no more than BRDF_TINY, below which slopes overflow and devices drop numbers.
 BRDF_REAL_FUNCTION
 Real burley_tint(Real base_color, Real base_luminance) {
-  Real safe = select(base_luminance > REAL(0.0), base_luminance, REAL(1.0));
-  return select(base_luminance > REAL(0.0), base_color / safe, REAL(1.0));
+  Real safe = select(base_luminance > REAL(BRDF_TINY), base_luminance, REAL(1.0));
+  return select(base_luminance > REAL(BRDF_TINY), base_color / safe, REAL(1.0));
 }
 
 BRDF_REAL_FUNCTION

@@ -7,9 +7,10 @@
 
 #include "math.h"
 
-// A direction is above the horizon if its cosine is larger than this: the denormal numbers of single
-// precision, which many devices take for 0, are on the horizon everywhere.
-#define BRDF_HORIZON 1.2e-38
+// A direction is above the horizon if its cosine is larger than this, so that in single precision its
+// products with alpha >= 1e-4 and what is divided by them stay clear of BRDF_TINY, and of the denormal
+// numbers, which many devices take for 0.
+#define BRDF_HORIZON 1e-25
 
 BRDF_NAMESPACE_BEGIN
 

@@ -51,9 +51,9 @@ float stored(int slot, uint texel) {
 
 float lobe_value(int lobe) {
   int at = lobe * kLobeSize;
-  float cos_axis = lobes[at] * light.direction_x + lobes[at + 1] * light.direction_y +
-                   lobes[at + 2] * light.direction_z;
-  return windowed_spherical_gaussian(cos_axis, lobes[at + 3], lobes[at + 4]);
+  float one_minus_cos = one_minus_cos_between(lobes[at], lobes[at + 1], lobes[at + 2], light.direction_x,
+                                              light.direction_y, light.direction_z);
+  return windowed_lobe(one_minus_cos, lobes[at + 3], lobes[at + 4]);
 }
 
 vec3 lobe_sum(uint texel) {
