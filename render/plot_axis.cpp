@@ -13,6 +13,8 @@ namespace {
 constexpr double kLogarithmicRatio = 8.0;
 // Left free at both ends, as a share of what the data take.
 constexpr double kMargin = 0.06;
+// Ticks of a plot that is large are nearer to each other by this.
+constexpr double kFinerTicks = 0.6;
 // More decades have room for their powers of ten alone.
 constexpr double kMostFineDecades = 2.6;
 constexpr double kMostDecades = 7.0;
@@ -60,7 +62,7 @@ void PlotAxis::make_linear(double smallest, double largest) {
   const double margin = largest - smallest > 1e-9 * least ? kMargin * (largest - smallest) : least;
   lower_ = smallest >= 0.0 && smallest - margin < 0.0 ? 0.0 : smallest - margin;
   upper_ = largest + margin;
-  const double step = tick_step(upper_ - lower_);
+  const double step = tick_step(kFinerTicks * (upper_ - lower_));
   for (double k = std::ceil(lower_ / step - 1e-9); k * step <= upper_ + 1e-9 * step; k += 1.0) {
     const double value = k == 0.0 ? 0.0 : k * step;
     ticks_.push_back({value, number_label(value)});
