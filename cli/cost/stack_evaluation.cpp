@@ -69,21 +69,20 @@ StackEvaluation::StackEvaluation(const StackInfo& info, const bake::BaseModel& b
       lights_(lights_to_time()) {
   const std::size_t count = surface.count();
   const std::size_t times = (kLeastTexels + count - 1) / count;
-  bake::RunTimeTexels texels;
-  texels.surface = {repeated(surface.normals, count, times), repeated(surface.albedo, count, times),
-                    repeated(surface.state, count, times)};
-  texels.baked = texels.surface;
-  texels.chroma = repeated(stored.chroma, count, times);
+  texels_.surface = {repeated(surface.normals, count, times), repeated(surface.albedo, count, times),
+                     repeated(surface.state, count, times)};
+  texels_.baked = texels_.surface;
+  texels_.chroma = repeated(stored.chroma, count, times);
   // [lobe][channel][texel] of [channel][lobe][texel].
   for (std::size_t lobe = 0; lobe < stored.lobes.size(); ++lobe) {
     for (const std::vector<float>& channel : stored.amplitudes) {
       const auto from = channel.begin() + static_cast<std::ptrdiff_t>(lobe * count);
       const std::vector<float> plane(from, from + static_cast<std::ptrdiff_t>(count));
       const std::vector<float> all = repeated(plane, count, times);
-      texels.amplitudes.insert(texels.amplitudes.end(), all.begin(), all.end());
+      texels_.amplitudes.insert(texels_.amplitudes.end(), all.begin(), all.end());
     }
   }
-  held_ = bake::held_texels(asset_, choice.bits, texels, repeated(stored.masks, count, times));
+  held_ = bake::held_texels(asset_, choice.bits, texels_, repeated(stored.masks, count, times));
   block_.texels.resize(held_.count);
   std::iota(block_.texels.begin(), block_.texels.end(), 0U);
   block_.lights = 1;
@@ -91,20 +90,30 @@ StackEvaluation::StackEvaluation(const StackInfo& info, const bake::BaseModel& b
   correction_.resize(3 * held_.count);
 }
 
-double StackEvaluation::nanoseconds() {
+template <class Relight>
+double StackEvaluation::timed(const Relight& relight) {
   double seconds = 0.0;
   tbb::task_arena alone(1);
   alone.execute([&] {
     const double start = thread_cpu_seconds();
-    for (const RealisLight& light : lights_) {
-      info_.lights = {{"", light.direction, {}, light.intensity}};
-      bake::render_block(info_, block_, held_.surface, bake::all_lights(info_), base_, radiance_);
-      bake::held_correction(asset_, held_, light, correction_);
-      for (std::size_t k = 0; k < radiance_.size(); ++k) radiance_[k] += correction_[k];
-    }
+    for (const RealisLight& light : lights_) relight(light);
     seconds = thread_cpu_seconds() - start;
   });
   return 1e9 * seconds / static_cast<double>(held_.count * lights_.size());
+}
+
+double StackEvaluation::nanoseconds() {
+  return timed([this](const RealisLight& light) {
+    info_.lights = {{"", light.direction, {}, light.intensity}};
+    bake::render_block(info_, block_, held_.surface, bake::all_lights(info_), base_, radiance_);
+    bake::held_correction(asset_, held_, light, correction_);
+    for (std::size_t k = 0; k < radiance_.size(); ++k) radiance_[k] += correction_[k];
+  });
+}
+
+double StackEvaluation::nanoseconds_in_double() {
+  return timed(
+      [this](const RealisLight& light) { radiance_ = bake::relight(asset_, texels_, light).corrected; });
 }
 
 }  // namespace brdfit::cli

@@ -22,15 +22,25 @@ class StackEvaluation {
   // Relights all texels under each light once and gives the CPU nanoseconds of one texel and light.
   double nanoseconds();
 
+  // The same with the correction in double precision (bake::relight), from amplitudes that are decoded
+  // already.
+  double nanoseconds_in_double();
+
+  const RealisAsset& asset() const { return asset_; }
+  const bake::HeldTexels& held() const { return held_; }
+  const std::vector<RealisLight>& lights() const { return lights_; }
   // Of the last light, [channel][texel].
   const std::vector<float>& radiance() const { return radiance_; }
-  std::size_t texels() const { return held_.count; }
 
  private:
+  template <class Relight>
+  double timed(const Relight& relight);
+
   bake::BaseModel base_;
   StackInfo info_;
   RealisAsset asset_;
   bake::HeldTexels held_;
+  bake::RunTimeTexels texels_;
   TexelBlock block_;
   std::vector<RealisLight> lights_;
   std::vector<float> radiance_;

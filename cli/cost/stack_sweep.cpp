@@ -19,6 +19,7 @@
 #include "cli/cost/paired_timing.h"
 #include "cli/cost/pareto.h"
 #include "cli/cost/peak_memory.h"
+#include "cli/cost/stack_device.h"
 #include "cli/cost/stack_errors.h"
 #include "cli/cost/stack_evaluation.h"
 #include "cli/progress.h"
@@ -102,6 +103,35 @@ class StackMeter {
     add_notes(run);
     mark_fronts(run);
     return run;
+  }
+
+  // The default of a run that was measured, relit in other ways.
+  void add_devices(CostRun& run) {
+    StackEvaluation& evaluation = *evaluations_.front();
+    std::vector<std::pair<std::string, std::function<double()>>> ways = {
+        {"processor, double precision", [&] { return evaluation.nanoseconds_in_double(); }}};
+    std::string why;
+    std::vector<float> correction;
+    const std::unique_ptr<StackDevice> device = open_stack_device(options_.device, why);
+    if (device) {
+      ways.emplace_back("Vulkan: " + device->name(), [&] {
+        return device->nanoseconds(evaluation.asset(), evaluation.held(), evaluation.lights(), correction);
+      });
+    } else {
+      run.notes.push_back("no Vulkan device was timed: " + why);
+    }
+    for (const auto& way : ways) way.second();
+    const TimesInTurns times = time_in_turns(
+        ways.size(), [&](std::size_t k) { return ways[k].second(); }, evaluation_turns());
+    for (std::size_t k = 0; k < ways.size(); ++k) {
+      CostPoint point = run.points.front();
+      point.name += ", " + ways[k].first;
+      point.sweep = "device";
+      point.settings.emplace_back("device", ways[k].first);
+      point.evaluation_ns = times.works[k];
+      run.points.push_back(std::move(point));
+    }
+    mark_fronts(run);
   }
 
  private:
@@ -308,15 +338,20 @@ class StackMeter {
     point.errors.emplace_back(prefix + "worst_light_rmse_255", summary.worst_light_rmse_255);
   }
 
-  void time_evaluations(CostRun& run) {
+  TurnOptions evaluation_turns() const {
     TurnOptions turns;
     turns.repeats = options_.repeats * kEvaluationsPerBake;
     turns.cpu_time = true;
     turns.per_second = 1e9;
     turns.before_each = stop_when_interrupted;
+    return turns;
+  }
+
+  void time_evaluations(CostRun& run) {
     for (const auto& evaluation : evaluations_) evaluation->nanoseconds();
     const TimesInTurns times = time_in_turns(
-        evaluations_.size(), [&](std::size_t k) { return evaluations_[k]->nanoseconds(); }, turns);
+        evaluations_.size(), [&](std::size_t k) { return evaluations_[k]->nanoseconds(); },
+        evaluation_turns());
     for (std::size_t k = 0; k < run.points.size(); ++k) run.points[k].evaluation_ns = times.works[k];
     run.reference_seconds = times.reference_seconds;
   }
@@ -369,7 +404,9 @@ std::vector<std::string> stack_error_keys() {
 CostRun sweep_stack(const StackSweepOptions& options) {
   StackMeter meter(options);
   const auto [base, other] = meter.bases();
-  return meter.measure(plan_choices(base, other, options.quick));
+  CostRun run = meter.measure(plan_choices(base, other, options.quick));
+  meter.add_devices(run);
+  return run;
 }
 
 CostPoint measure_stack_choice(const CostPoint& point, const StackSweepOptions& options) {

@@ -23,6 +23,7 @@ struct StackSweepOptions {
   BakeArguments bake;
   bool quick = false;  // a third of the points, 6 folds, each bake timed once
   int repeats = 3;     // of the time of each bake; evaluations are timed five times as often
+  std::string device;  // for Vulkan, as DeviceRequest::device; empty: the first, if there is one
 };
 
 // The keys of CostPoint::errors of a stack, root-mean-square errors in 1/255 (a value of 1 is 255): held_out_
@@ -39,6 +40,10 @@ std::vector<std::string> stack_error_keys();
 // and memory is the same for any number of threads. Throws UsageError, io::IoError, and std::runtime_error
 // when interrupted.
 CostRun sweep_stack(const StackSweepOptions& options);
+
+// Beside the choices there are points of sweep "device": the default relit in double precision, and on a
+// Vulkan device (base material and correction; its errors are those of the default, see `brdfit verify`).
+// They are no choices of a bake.
 
 // A point measured again, by itself.
 CostPoint measure_stack_choice(const CostPoint& point, const StackSweepOptions& options);
