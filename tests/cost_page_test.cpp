@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "tests/cost_data.h"
+#include "tests/cost_page_data.h"
 #include "tests/xml_reader.h"
 
 namespace brdfit::cli {
@@ -115,9 +115,14 @@ TEST(CostPage, BytesHaveAPlotWherePointsDifferInThem) {
   EXPECT_EQ(plots_of(page_of(run)).size(), 3U);
   run.kind = "stack";
   run.points[3].bytes = 8.0;
-  const std::string html = page_of(run);
-  ASSERT_EQ(plots_of(html).size(), 4U);
-  EXPECT_THAT(plots_of(html)[2], HasSubstr(">bytes per texel</text>"));
+  run.points[5].sweep = "device";
+  const std::vector<std::string> plots = plots_of(page_of(run));
+  ASSERT_EQ(plots.size(), 4U);
+  EXPECT_THAT(plots[2], HasSubstr(">bytes per texel</text>"));
+  // A device differs in time alone, and gains nothing.
+  EXPECT_EQ(count_of(plots[1], "data-point=\"p5\""), 1U);
+  EXPECT_EQ(count_of(plots[2], "data-point="), 8U);
+  EXPECT_EQ(count_of(plots[2], "data-point=\"p5\"") + count_of(plots[3], "data-point=\"p5\""), 0U);
 }
 
 TEST(CostPage, SeveralInputsHaveTheirMediansBesideASectionEach) {

@@ -93,38 +93,57 @@ render::CostPlot empty_plot(const CostRun& run, std::string title, std::string c
   return plot;
 }
 
-render::CostPlot plot_against(const CostRun& run, const std::string& cost_name,
-                              const std::function<render::PlotSpread(const CostPoint&)>& cost,
-                              const std::function<bool(const CostPoint&)>& is_on_front) {
+render::CostPlotPoint plot_point(const CostRun& run, std::size_t k, const std::vector<std::string>& series,
+                                 const render::PlotSpread& cost) {
+  const CostPoint& point = run.points[k];
+  return {title_of(point, run),
+          index_in(series, point.sweep),
+          cost,
+          render::PlotSpread::of(error_of(point, run.leading_error)),
+          false,
+          fmt::format("p{}", k)};
+}
+
+render::CostPlot plot_against(const CostRun& run, const std::string& cost_name, RepeatedTime CostPoint::*time,
+                              bool CostPoint::*is_on_front) {
   render::CostPlot plot =
       empty_plot(run, fmt::format("{}: error against {}", run.input, cost_name), cost_name);
   for (std::size_t k = 0; k < run.points.size(); ++k) {
-    const CostPoint& point = run.points[k];
-    plot.points.push_back({title_of(point, run), index_in(plot.series, point.sweep), cost(point),
-                           render::PlotSpread::of(error_of(point, run.leading_error)), is_on_front(point),
-                           fmt::format("p{}", k)});
+    plot.points.push_back(plot_point(run, k, plot.series, spread_of(run.points[k].*time)));
+    plot.points.back().is_on_front = run.points[k].*is_on_front;
   }
   return plot;
 }
 
-// Marks the drawable points that none other beats in both figures.
-void mark_front(render::CostPlot& plot) {
-  for (render::CostPlotPoint& point : plot.points) {
-    point.is_on_front =
-        render::is_drawable(point) &&
-        std::ranges::none_of(plot.points, [&](const render::CostPlotPoint& other) {
-          const bool is_no_worse =
-              other.cost.middle <= point.cost.middle && other.error.middle <= point.error.middle;
-          return render::is_drawable(other) && is_no_worse &&
-                 (other.cost.middle < point.cost.middle || other.error.middle < point.error.middle);
-        });
+// Whether the k-th point is drawn and none other beats it; of points that are alike the first.
+bool is_unbeaten(const render::CostPlot& plot, std::size_t k) {
+  const render::CostPlotPoint& point = plot.points[k];
+  if (!render::is_drawable(point)) return false;
+  for (std::size_t j = 0; j < plot.points.size(); ++j) {
+    const render::CostPlotPoint& other = plot.points[j];
+    const double cost = other.cost.middle - point.cost.middle;
+    const double error = other.error.middle - point.error.middle;
+    const bool is_better = cost < 0.0 || error < 0.0 || j < k;
+    if (render::is_drawable(other) && cost <= 0.0 && error <= 0.0 && is_better) return false;
   }
+  return true;
 }
 
-render::CostPlot bytes_plot(const CostRun& run) {
-  render::CostPlot plot = plot_against(
-      run, words_of(run).bytes, [](const CostPoint& point) { return render::PlotSpread::of(point.bytes); },
-      [](const CostPoint&) { return false; });
+void mark_front(render::CostPlot& plot) {
+  for (std::size_t k = 0; k < plot.points.size(); ++k) plot.points[k].is_on_front = is_unbeaten(plot, k);
+}
+
+// Without devices, which differ in time alone. names: filled with those of the points.
+render::CostPlot bytes_plot(const CostRun& run, std::vector<std::string>& names) {
+  const std::string cost_name = words_of(run).bytes;
+  render::CostPlot plot =
+      empty_plot(run, fmt::format("{}: error against {}", run.input, cost_name), cost_name);
+  for (std::size_t k = 0; k < run.points.size(); ++k) {
+    const CostPoint& point = run.points[k];
+    if (point.sweep == "device") continue;
+    names.push_back(point.name);
+    plot.points.push_back(plot_point(run, k, plot.series, render::PlotSpread::of(point.bytes)));
+  }
   mark_front(plot);
   return plot;
 }
@@ -143,7 +162,7 @@ const CostPoint& compared_with(const CostPoint& point, const CostRun& run) {
     if (key == "effects") value = "none";
   }
   const auto found = std::ranges::find(run.points, without, &CostPoint::settings);
-  return found == run.points.end() ? *before : *found;
+  return found == run.points.end() || &*found == &point ? *before : *found;
 }
 
 std::string less_or_more(double value, const std::string& unit) {
@@ -160,7 +179,7 @@ render::CostPlot gain_plot(const CostRun& run) {
   for (std::size_t k = 0; k < run.points.size(); ++k) {
     const CostPoint& point = run.points[k];
     const CostPoint& before = compared_with(point, run);
-    if (&before == &point) continue;
+    if (&before == &point || point.sweep == "device") continue;
     const double gain =
         100.0 * (1.0 - error_of(point, run.leading_error) / error_of(before, run.leading_error));
     const double extra = point.evaluation_ns.median - before.evaluation_ns.median;
@@ -203,16 +222,14 @@ std::string plots_html(const CostRun& run) {
   }
   std::string html = "<div class=\"plots\">\n";
   html +=
-      figure_html(plot_against(
-                      run, words.make, [](const CostPoint& point) { return spread_of(point.make_seconds); },
-                      [](const CostPoint& point) { return point.on_make_front; }),
-                  names);
+      figure_html(plot_against(run, words.make, &CostPoint::make_seconds, &CostPoint::on_make_front), names);
   html += figure_html(
-      plot_against(
-          run, words.evaluation, [](const CostPoint& point) { return spread_of(point.evaluation_ns); },
-          [](const CostPoint& point) { return point.on_run_front; }),
-      names);
-  if (bytes.size() > 1) html += figure_html(bytes_plot(run), names);
+      plot_against(run, words.evaluation, &CostPoint::evaluation_ns, &CostPoint::on_run_front), names);
+  if (bytes.size() > 1) {
+    names.clear();
+    const render::CostPlot plot = bytes_plot(run, names);
+    html += figure_html(plot, names);
+  }
   html += figure_html(gain_plot(run), {});
   return html + "</div>\n";
 }

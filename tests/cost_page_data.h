@@ -1,6 +1,6 @@
 // Runs of `brdfit cost` as a test makes them up.
-#ifndef BRDFIT_TESTS_COST_DATA_H_
-#define BRDFIT_TESTS_COST_DATA_H_
+#ifndef BRDFIT_TESTS_COST_PAGE_DATA_H_
+#define BRDFIT_TESTS_COST_PAGE_DATA_H_
 
 #include <cmath>
 #include <cstddef>
@@ -30,7 +30,7 @@ inline void mark_front(cli::CostRun& run, cli::RepeatedTime cli::CostPoint::*tim
 
 // Errors fall with cost, with some disorder; sweeps in turn.
 inline cli::CostRun made_up_run(std::size_t count, const std::string& input = "made-up.binary") {
-  const std::vector<std::string> sweeps = {"model", "tier", "effects", "samples", "starts", "loss", "device"};
+  const std::vector<std::string> sweeps = {"model", "tier", "effects", "samples", "starts", "loss", "data"};
   cli::CostRun run;
   run.kind = "table";
   run.input = input;
@@ -58,4 +58,4 @@ inline cli::CostRun made_up_run(std::size_t count, const std::string& input = "m
 
 }  // namespace brdfit::tests
 
-#endif  // BRDFIT_TESTS_COST_DATA_H_
+#endif  // BRDFIT_TESTS_COST_PAGE_DATA_H_
