@@ -82,9 +82,6 @@ class Stopwatch {
   std::chrono::steady_clock::time_point start_ = std::chrono::steady_clock::now();
 };
 
-// CPU time of the calling thread since it began.
-double thread_cpu_seconds();
-
 // The largest memory that the process has held, in bytes.
 std::size_t peak_memory_bytes();
 

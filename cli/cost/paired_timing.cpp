@@ -3,12 +3,19 @@
 
 #include <algorithm>
 #include <cmath>
+#include <ctime>
 #include <stdexcept>
 
 #include "cli/common.h"
 #include "cli/run_scaling.h"
 
 namespace brdfit::cli {
+
+double thread_cpu_seconds() {
+  timespec now{};
+  clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
 
 double quantile_of(std::vector<double> values, double q) {
   if (values.empty()) throw std::invalid_argument("a quantile of nothing");

@@ -15,6 +15,9 @@
 
 namespace brdfit::cli {
 
+// CPU time of the calling thread since it began.
+double thread_cpu_seconds();
+
 // Quantile q in [0, 1] of values, linear between neighbours in order. Throws std::invalid_argument where
 // there is no value.
 double quantile_of(std::vector<double> values, double q);

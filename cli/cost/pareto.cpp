@@ -54,7 +54,9 @@ std::vector<bool> front_of(std::span<const CostPoint> points, std::span<const Co
 }
 
 void mark_fronts(CostRun& run) {
-  const CostFigure error = [&run](const CostPoint& point) { return error_of(point, run.leading_error); };
+  const CostFigure error = [&run](const CostPoint& point) {
+    return point.sweep == "device" ? kNotMeasured : error_of(point, run.leading_error);
+  };
   const std::vector<bool> make = front_of(run.points, std::array{error, CostFigure(make_seconds_of)});
   const std::vector<bool> evaluation = front_of(run.points, std::array{error, CostFigure(evaluation_ns_of)});
   for (std::size_t k = 0; k < run.points.size(); ++k) {

@@ -23,6 +23,8 @@ double bytes_of(const CostPoint& point);
 std::vector<bool> front_of(std::span<const CostPoint> points, std::span<const CostFigure> figures);
 
 // Marks the two fronts of a run: its leading error against the time to make and against that per evaluation.
+// Points of the sweep "device" are the default point on other devices, whose times are compared with each
+// other alone: they are on no front and beat nothing.
 void mark_fronts(CostRun& run);
 
 // The indices of the points that a test holds for, by rising cost.

@@ -8,7 +8,7 @@
 #include <numbers>
 #include <numeric>
 
-#include "cli/common.h"
+#include "cli/cost/paired_timing.h"
 
 namespace brdfit::cli {
 namespace {
