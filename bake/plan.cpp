@@ -40,6 +40,10 @@ bool BakeSettings::is_valid(std::string* why) const {
     if (why != nullptr) *why = "given_penalty must be positive";
     return false;
   }
+  if (!(ridge_factor > 0.0 && std::isfinite(ridge_factor))) {
+    if (why != nullptr) *why = "ridge_factor must be positive";
+    return false;
+  }
   if (lobes >= 0 && lobes <= kMaxLobes) return true;
   if (why != nullptr) *why = fmt::format("lobes is {}, not in [0, {}]", lobes, kMaxLobes);
   return false;
@@ -154,7 +158,8 @@ void choose_open_lobes(BakePlan& plan, const ProblemOf& problem_of, std::span<co
   std::vector<LobeChoice> choices = choose_lobes_each(problem_of, directions, groups, options);
   const auto system_of = [&](const LobeChoice& choice) -> std::optional<LobeSystem> {
     if (choice.lobes.empty()) return std::nullopt;
-    return LobeSystem(choice.lobes, directions, choice.squared_modulation, choice.ridge);
+    return LobeSystem(choice.lobes, directions, choice.squared_modulation,
+                      settings.ridge_factor * choice.ridge);
   };
   for (std::size_t k = 0; k < settings.also_lobes.size(); ++k) {
     plan.also[settings.also_lobes[k]] = system_of(choices[k]);
@@ -195,7 +200,8 @@ void plan_lobes(BakePlan& plan, const StackInfo& info, const TexelBlock& sample,
   } else if (settings.given_lobes) {
     const RidgeChoice ridge = choose_ridge(*settings.given_lobes, directions, problem);
     if (ridge.helps()) {
-      plan.system.emplace(*settings.given_lobes, directions, mean_squared_modulation(problem), ridge.ridge);
+      plan.system.emplace(*settings.given_lobes, directions, mean_squared_modulation(problem),
+                          settings.ridge_factor * ridge.ridge);
     }
   }
   choose_open_lobes(plan, problem_of, directions, settings);

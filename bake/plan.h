@@ -36,6 +36,7 @@ struct BakeSettings {
   std::vector<int> also_lobes;          // numbers for which lobes are planned beside, to compare with
   std::optional<LobeSet> given_lobes;   // these, whatever the two above say
   std::optional<double> given_penalty;  // and this penalty (LobeSystem::penalty), > 0; else a ridge is chosen
+  double ridge_factor = 1.0;            // what a ridge that is chosen is multiplied by, > 0
   BaseKind base = BaseKind::kAuto;
   Model model = Model::kCallisto;  // of the material
   RealisColour colour = RealisColour::kLuminance;

@@ -6,6 +6,7 @@
 #include <charconv>
 #include <optional>
 
+#include "bake/shrunk_stack.h"
 #include "io/realis_json.h"
 #include "io/transfer.h"
 
@@ -51,6 +52,16 @@ void add_bake_options(CLI::App& app, BakeArguments& a) {
       ->take_last();
   app.add_option("--model", a.model, "of the material that all texels share")
       ->check(CLI::IsMember({"callisto", "burley", "lambert-ggx"}))
+      ->capture_default_str()
+      ->take_last();
+  app.add_option("--ridge-factor", a.ridge_factor,
+                 "what the ridge that is chosen is multiplied by: above 1 holds amplitudes back more")
+      ->check(CLI::PositiveNumber)
+      ->capture_default_str()
+      ->take_last();
+  app.add_option("--shrink", a.shrink,
+                 "bake squares of so many texels a side as one: smaller textures, sooner")
+      ->check(CLI::Range(1, bake::kMostShrink))
       ->capture_default_str()
       ->take_last();
   app.add_flag("--gains", a.gains, "estimate how much brighter each light is than the stack says");
@@ -135,6 +146,7 @@ bake::BakeSettings bake_settings_of(const BakeArguments& a) {
   settings.base = a.base == "auto"      ? bake::BaseKind::kAuto
                   : a.base == "lambert" ? bake::BaseKind::kLambert
                                         : bake::BaseKind::kMaterial;
+  settings.ridge_factor = a.ridge_factor;
   settings.gains = a.gains;
   settings.albedo_in_modulation = a.albedo_in_modulation;
   settings.seed = a.seed;

@@ -25,6 +25,8 @@ struct BakeArguments {
   std::string colour = "luminance";
   std::string base = "auto";
   std::string model = "callisto";
+  double ridge_factor = 1.0;
+  int shrink = 1;
   bool gains = false;
   bool albedo_in_modulation = false;
   int bits = 8;

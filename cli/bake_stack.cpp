@@ -55,6 +55,7 @@ BakeStack::BakeStack(const BakeArguments& a, bool several_passes)
     : files_(open_files(a, several_passes || a.contours)), weighted_(files_) {
   weigh_by_noise(a);
   if (a.contours) weigh_by_contours(a);
+  if (a.shrink > 1) shrunk_.emplace(weighted_, a.shrink, memory_bytes(a) / 2);
 }
 
 void BakeStack::weigh_by_noise(const BakeArguments& a) {

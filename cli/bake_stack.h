@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include "bake/shrunk_stack.h"
 #include "bake/weighted_stack.h"
 #include "bake/weights.h"
 #include "cli/bake_options.h"
@@ -21,15 +22,13 @@ class BakeStack : public ImageStack {
   // once, for --spill auto. Throws UsageError, io::IoError, and std::runtime_error when interrupted.
   BakeStack(const BakeArguments& a, bool several_passes);
 
-  const StackInfo& info() const override { return files_.info(); }
-  TexelBlock read_rows(int first_row, int rows) override { return weighted_.read_rows(first_row, rows); }
+  const StackInfo& info() const override { return top().info(); }
+  TexelBlock read_rows(int first_row, int rows) override { return top().read_rows(first_row, rows); }
   TexelBlock read_luminance(int first_row, int rows) override {
-    return weighted_.read_luminance(first_row, rows);
+    return top().read_luminance(first_row, rows);
   }
-  TexelBlock read_texels(std::span<const std::uint32_t> texels) override {
-    return weighted_.read_texels(texels);
-  }
-  void give_back(TexelBlock block) override { weighted_.give_back(std::move(block)); }
+  TexelBlock read_texels(std::span<const std::uint32_t> texels) override { return top().read_texels(texels); }
+  void give_back(TexelBlock block) override { top().give_back(std::move(block)); }
 
   int strip_rows() const { return files_.strip_rows(); }
   const io::StackSource& source() const { return files_.source(); }
@@ -44,8 +43,12 @@ class BakeStack : public ImageStack {
   void weigh_by_noise(const BakeArguments& a);
   void weigh_by_contours(const BakeArguments& a);
 
+  ImageStack& top() { return shrunk_ ? static_cast<ImageStack&>(*shrunk_) : weighted_; }
+  const ImageStack& top() const { return shrunk_ ? static_cast<const ImageStack&>(*shrunk_) : weighted_; }
+
   io::FileStack files_;
   bake::WeightedStack weighted_;
+  std::optional<bake::ShrunkStack> shrunk_;
   std::optional<bake::SensorNoise> noise_;
   std::unique_ptr<ContourPass> contours_;
 };

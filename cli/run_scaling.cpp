@@ -11,14 +11,6 @@
 namespace brdfit::cli {
 namespace {
 
-// Some 50 ms of additions that wait for each other.
-void plain_loop() {
-  double sum = 0.0;
-  for (int k = 1; k < 40'000'000; ++k) sum += 1.0 / static_cast<double>(k);
-  volatile double kept = sum;
-  static_cast<void>(kept);
-}
-
 double seconds_of(const std::function<void()>& work) {
   const Stopwatch watch;
   work();
@@ -26,6 +18,13 @@ double seconds_of(const std::function<void()>& work) {
 }
 
 }  // namespace
+
+void plain_loop(int terms) {
+  double sum = 0.0;
+  for (int k = 1; k < terms; ++k) sum += 1.0 / static_cast<double>(k);
+  volatile double kept = sum;
+  static_cast<void>(kept);
+}
 
 void run_jobs(std::size_t count, int workers, const std::function<void(std::size_t)>& job) {
   std::atomic<std::size_t> next{0};

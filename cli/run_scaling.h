@@ -12,6 +12,10 @@ struct Scaling {
   double loop = 1.0;  // the same of a loop that computes in registers
 };
 
+// Adds the first terms of the harmonic series: quotients that wait for each other, in registers. The default
+// takes some 50 ms.
+void plain_loop(int terms = 40'000'000);
+
 // Calls job(k) for k below count on `workers` threads, each taking the next when it is done; what a job does
 // in parallel stays its own until there are no more jobs.
 void run_jobs(std::size_t count, int workers, const std::function<void(std::size_t)>& job);

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "render/plot.h"
+#include "render/plot_axis.h"
 #include "render/svg.h"
 
 namespace brdfit::render {
@@ -26,37 +27,9 @@ constexpr double kWholeHeight = kCostTop + kCostHeight + kFoot;
 constexpr const char* kErrorColour = "#0072b2";
 constexpr const char* kCostColour = "#7a5a00";
 
-// 1, 2 or 5 times a power of ten: about four of them make the span.
-double tick_step(double span) {
-  const double rough = span / 4.0;
-  const double power = std::pow(10.0, std::floor(std::log10(rough)));
-  for (const double factor : {1.0, 2.0, 5.0}) {
-    if (factor * power >= rough * (1.0 - 1e-9)) return factor * power;
-  }
-  return 10.0 * power;
-}
-
-// A linear scale from one tick to another that holds both ends.
-struct Scale {
-  double lower;
-  double upper;
-  double step;
-
-  static Scale around(double smallest, double largest) {
-    const double span = largest > smallest ? largest - smallest : std::max(0.1 * std::abs(largest), 1e-3);
-    const double step = tick_step(span);
-    const double lower = step * std::floor(smallest / step + 1e-9);
-    double upper = step * std::ceil(largest / step - 1e-9);
-    if (!(upper > lower)) upper = lower + step;
-    return {lower, upper, step};
-  }
-  int ticks() const { return static_cast<int>(std::lround((upper - lower) / step)); }
-  double tick(int k) const { return lower + k * step; }
-};
-
 // One of the two plots.
 struct Panel {
-  Scale scale;
+  LinearScale scale;
   double top;
   double height;
 
@@ -172,8 +145,8 @@ std::string ladder_plot(const std::string& title, const std::vector<LadderPoint>
   Svg svg(kWidth, has_cost ? kWholeHeight : kErrorAloneHeight, title, description_of(points));
   svg.rect({0.0, 0.0}, kWidth, has_cost ? kWholeHeight : kErrorAloneHeight, R"(fill="#fff")");
   svg.begin_group(kPlotFont);
-  draw_error(svg, {Scale::around(smallest, largest), kErrorTop, kErrorHeight}, points, all_pct);
-  if (has_cost) draw_cost(svg, {Scale::around(0.0, most_ns), kCostTop, kCostHeight}, points);
+  draw_error(svg, {LinearScale::around(smallest, largest), kErrorTop, kErrorHeight}, points, all_pct);
+  if (has_cost) draw_cost(svg, {LinearScale::around(0.0, most_ns), kCostTop, kCostHeight}, points);
   draw_rung_numbers(svg, has_cost ? kCostTop + kCostHeight : kErrorTop + kErrorHeight, points.size());
   svg.end_group();
   return svg.finish(false);

@@ -7,15 +7,13 @@
 
 #include "render/report/html.h"
 #include "render/report/material.h"
+#include "render/report/page.h"
 #include "render/report/summary.h"
 #include "render/svg.h"
 
 namespace brdfit::render {
 namespace {
 
-constexpr std::string_view kStyle =
-#include "report_style.inc"
-    ;
 constexpr std::string_view kScript =
 #include "report_script.inc"
     ;
@@ -26,19 +24,6 @@ constexpr std::size_t kFewMaterials = 3;
 
 std::string count_of(std::size_t count, std::string_view what) {
   return fmt::format("{} {}{}", count, what, count == 1 ? "" : "s");
-}
-
-std::string head_html(const Report& report) {
-  // Nothing may be loaded, not even by mistake: the policy makes a browser refuse it.
-  return fmt::format(
-      "<!DOCTYPE html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
-      "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; img-src data:; "
-      "style-src 'unsafe-inline'; script-src 'unsafe-inline'; base-uri 'none'; form-action 'none'\">\n"
-      "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-      "<meta name=\"generator\" content=\"brdfit {}\">\n<title>{} – brdfit "
-      "report</title>\n<style>\n{}</style>\n"
-      "</head>\n",
-      xml_escaped(report.version), xml_escaped(report.title), kStyle);
 }
 
 std::string title_html(const Report& report) {
@@ -77,20 +62,17 @@ constexpr std::string_view kViewer =
 }  // namespace
 
 std::string report_html(const Report& report) {
-  std::string html = head_html(report);
-  html += "<body>\n<a class=\"skip\" href=\"#results\">Skip to the results</a>\n" + title_html(report) +
-          "<main>\n" + warning_list(report.warnings) +
-          "<section id=\"results\" tabindex=\"-1\" aria-label=\"Results\">\n" + contents_html(report) +
-          summary_html(report) + "</section>\n";
+  std::string html = "<a class=\"skip\" href=\"#results\">Skip to the results</a>\n" + title_html(report) +
+                     "<main>\n" + warning_list(report.warnings) +
+                     "<section id=\"results\" tabindex=\"-1\" aria-label=\"Results\">\n" +
+                     contents_html(report) + summary_html(report) + "</section>\n";
   const bool is_open = report.materials.size() <= kMostUnfolded;
   for (std::size_t m = 0; m < report.materials.size(); ++m) {
     html += material_html(report.materials[m], m, is_open);
   }
   html += "</main>\n";
   html += kViewer;
-  html += "<p class=\"unseen\" role=\"status\" id=\"said\"></p>\n<script>\n";
-  html += kScript;
-  return html + "</script>\n</body>\n</html>\n";
+  return page_html({report.title + " – brdfit report", report.version, html, "", std::string(kScript)});
 }
 
 }  // namespace brdfit::render

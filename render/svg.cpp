@@ -73,11 +73,12 @@ std::string xml_escaped(std::string_view text) {
   return result;
 }
 
-Svg::Svg(double width, double height, std::string_view title, std::string_view description)
+Svg::Svg(double width, double height, std::string_view title, std::string_view description,
+         std::string_view role)
     : head_(fmt::format(R"(<svg xmlns="http://www.w3.org/2000/svg" width="{0}" height="{1}" )"
-                        R"(viewBox="0 0 {0} {1}" role="img" aria-label="{2}">)"
+                        R"(viewBox="0 0 {0} {1}" role="{4}" aria-label="{2}">)"
                         "\n<title>{2}</title>\n<desc>{3}</desc>\n",
-                        number(width), number(height), xml_escaped(title), xml_escaped(description))) {}
+                        number(width), number(height), xml_escaped(title), xml_escaped(description), role)) {}
 
 void Svg::line(SvgPoint from, SvgPoint to, std::string_view style) {
   body_ += fmt::format("<line x1=\"{}\" y1=\"{}\" x2=\"{}\" y2=\"{}\"{}/>\n", number(from.first),
@@ -129,8 +130,9 @@ void Svg::symbols(SvgPoint at, std::string_view text, std::string_view style) {
   body_ += "</text>\n";
 }
 
-void Svg::begin_group(std::string_view style) {
+void Svg::begin_group(std::string_view style, std::string_view tooltip) {
   body_ += fmt::format("<g{}>\n", spaced(style));
+  if (!tooltip.empty()) body_ += fmt::format("<title>{}</title>\n", xml_escaped(tooltip));
   ++open_groups_;
 }
 

@@ -19,8 +19,10 @@ std::string xml_escaped(std::string_view text);
 // (std::invalid_argument).
 class Svg {
  public:
-  // description: for those who cannot see the picture.
-  Svg(double width, double height, std::string_view title, std::string_view description);
+  // description: for those who cannot see the picture. role: "img", or "group" where parts of it can be
+  // reached by themselves.
+  Svg(double width, double height, std::string_view title, std::string_view description,
+      std::string_view role = "img");
 
   // style: attributes as they stand in the file, e.g. R"(stroke="#c33" fill="none")"; may be empty.
   void line(SvgPoint from, SvgPoint to, std::string_view style);
@@ -30,7 +32,7 @@ class Svg {
   void text(SvgPoint at, std::string_view text, std::string_view style);
   // As text, where "_x" is a subscript of one character: "\u03B8_h".
   void symbols(SvgPoint at, std::string_view text, std::string_view style);
-  void begin_group(std::string_view style);
+  void begin_group(std::string_view style, std::string_view tooltip = {});
   void end_group();
 
   // The whole file. with_header: an XML declaration before it; without, for use inside HTML. Throws
