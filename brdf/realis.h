@@ -24,6 +24,9 @@ struct Lobe {
 
 using LobeSet = std::vector<Lobe>;
 
+// Of an asset's lobes, so that the exponent is a number in single precision too.
+inline constexpr double kLargestSharpness = 1e30;
+
 // How amplitudes of one lobe are stored, as whole numbers in [0, realis_top_code(bits)]: an amplitude is
 // (stored - zero) x step. step >= 0; 0 where the lobe is not used. zero, itself such a number, stands for 0.
 struct RealisRange {

@@ -18,7 +18,8 @@ bool is_unit(const Vec3& v) {
 
 std::string complaint_about(const Lobe& lobe) {
   if (!is_unit(lobe.axis)) return "the axis of a lobe is not a unit vector";
-  if (!(lobe.sharpness >= 0.0 && std::isfinite(lobe.sharpness))) return "the sharpness of a lobe is negative";
+  if (!(lobe.sharpness >= 0.0 && lobe.sharpness <= kLargestSharpness))
+    return "the sharpness of a lobe is outside [0, 1e30]";
   if (!(lobe.cos_cut_off >= -1.0 && lobe.cos_cut_off < 1.0))
     return "the cut-off of a lobe is outside [-1, 1)";
   return "";

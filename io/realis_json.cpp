@@ -45,7 +45,7 @@ LobeSet read_lobes(ObjectReader& reader, const std::string& file) {
     ObjectReader one(list[k], file, fmt::format("{}[{}]", reader.place("lobes"), k));
     Lobe lobe;
     lobe.axis = read_vector(one, "axis");
-    lobe.sharpness = one.number("sharpness", 0.0, std::numeric_limits<double>::max());
+    lobe.sharpness = one.number("sharpness", 0.0, kLargestSharpness);
     lobe.cos_cut_off = one.number("cos_cut_off", -1.0, 1.0);
     one.finish();
     lobes.push_back(lobe);

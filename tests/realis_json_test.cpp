@@ -59,6 +59,7 @@ TEST(RealisJson, RefusesWhatDoesNotAgree) {
   expect_refused([](Json& json) { json.erase("lobes"); });
   expect_refused([](Json& json) { json["lobes"][0]["axis"] = Json::array({0.0, 0.0, 2.0}); });
   expect_refused([](Json& json) { json["lobes"][0]["cos_cut_off"] = 1.0; });
+  expect_refused([](Json& json) { json["lobes"][0]["sharpness"] = 1e39; });  // infinite in single precision
   expect_refused([](Json& json) { json["brdfit_realis"] = 1; });
   expect_refused([](Json& json) { json["packing"]["step"].push_back(1.0); });
   expect_refused([](Json& json) { json["packing"]["step"][0] = -1.0; });
