@@ -3,6 +3,8 @@
 
 #include <fmt/format.h>
 
+#include <cstdio>
+
 #include "cli/cost/cost_database.h"
 #include "cli/cost/table_cost.h"
 #include "cli/table_input.h"
@@ -52,6 +54,8 @@ void print_text(const Arguments& a, const std::string& file, const TableCost& co
   for (const Finding& finding : cost.findings) fmt::print("{}\n", finding.text);
   for (const std::string& note : cost.run.notes) fmt::print("note: {}\n", note);
   if (cost.budget) fmt::print("\n{}\n", budget_text(*cost.budget, a.limits, cost.run));
+  // What is said goes to another stream.
+  std::fflush(stdout);
   const CostPaths paths = cost_paths(a.output, base_name(file));
   say(a.common, fmt::format("wrote {} and .json", paths.csv.string()));
   if (!cost.material.empty()) say(a.common, "wrote " + cost.material.string());
