@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "cli/common.h"
+#include "cli/cost/cost_command.h"
 #include "cli/version.h"
 #include "fit/solve.h"
 
@@ -61,7 +62,7 @@ int run(int argc, char** argv) {
       add_slice_command(program),  add_sphere_command(program), add_compare_command(program),
       add_report_command(program), add_bake_command(program),   add_relight_command(program),
       add_synth_command(program),  add_export_command(program), add_verify_command(program),
-      add_demo_command(program)};
+      add_cost_command(program),   add_demo_command(program)};
   for (const Command& command : commands) {
     command.app->set_version_flag("--version", std::string("brdfit ") + kVersion);
   }

@@ -19,8 +19,6 @@ JudgedSphere TableJudge::operator()(const render::Subject& candidate) const {
   return result;
 }
 
-namespace {
-
 fit::FitResult fit_as_asked(const MeasuredTable& table, const fit::FitOptions& options,
                             const TableJudge& judge) {
   if (!options.choose_loss) return fit::fit(table, options);
@@ -28,13 +26,10 @@ fit::FitResult fit_as_asked(const MeasuredTable& table, const fit::FitOptions& o
       table, options, [&judge](const Material& material) { return judge(material).delta_e.mean; });
 }
 
-// A judge of its own for each part of the table: the whole table's has seen what is held out.
 fit::FitResult fit_part(const MeasuredTable& part, const fit::FitOptions& options) {
   if (!options.choose_loss) return fit::fit(part, options);
   return fit_as_asked(part, options, TableJudge(part, 1));
 }
-
-}  // namespace
 
 JudgedFit fit_and_judge(const MeasuredTable& table, const fit::FitOptions& options, const TableJudge& judge) {
   JudgedFit result;

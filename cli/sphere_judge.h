@@ -41,6 +41,14 @@ class TableJudge {
   double share_seconds_;
 };
 
+// fit::fit(), or under every loss with the judge's choice where the options ask for that.
+fit::FitResult fit_as_asked(const MeasuredTable& table, const fit::FitOptions& options,
+                            const TableJudge& judge);
+
+// The same for a part of a table, with a judge of its own where one is needed: the whole table's has seen
+// what is held out.
+fit::FitResult fit_part(const MeasuredTable& part, const fit::FitOptions& options);
+
 // Fits, judges, and fits again without each block of angles where held-out errors are asked for.
 JudgedFit fit_and_judge(const MeasuredTable& table, const fit::FitOptions& options, const TableJudge& judge);
 

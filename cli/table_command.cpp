@@ -44,27 +44,6 @@ struct Row {
   double seconds = 0.0;
 };
 
-// Files as they are; folders as the .binary files in them, in the order of their names.
-std::vector<std::string> expand(const std::vector<std::string>& inputs) {
-  std::vector<std::string> files;
-  for (const std::string& input : inputs) {
-    if (!std::filesystem::is_directory(input)) {
-      files.push_back(input);
-      continue;
-    }
-    std::vector<std::string> found;
-    for (const auto& entry : std::filesystem::directory_iterator(input)) {
-      if (entry.path().extension() == ".binary") found.push_back(entry.path().string());
-    }
-    if (found.empty()) {
-      throw io::IoError(io::IoError::Side::kInput, input, "holds no .binary file", "MERL-format tables");
-    }
-    std::ranges::sort(found);
-    std::ranges::copy(found, std::back_inserter(files));
-  }
-  return files;
-}
-
 bool is_material_file(const std::string& file) {
   return std::filesystem::path(file).extension() == ".json";
 }
@@ -217,7 +196,7 @@ int run_into_folder(const Arguments& a) {
   DatabaseRun run = {
       a.common,  a.fit,          {}, a.output, a.shard.empty() ? Shard{} : parse_shard(a.shard), a.published,
       a.timings, a.fit_options()};
-  run.files = expand(a.inputs);
+  run.files = table_files(a.inputs);
   const ThreadLimit threads(a.common.threads);
   return run_database(run);
 }
@@ -237,7 +216,7 @@ int run(const Arguments& a) {
   if (a.merge) return merge(a);
   if (!a.output.empty()) return run_into_folder(a);
   const std::vector<fit::FitOptions> all_options = make_fit_options(a.fit);
-  const std::vector<std::string> files = expand(a.inputs);
+  const std::vector<std::string> files = table_files(a.inputs);
   const ThreadLimit threads(a.common.threads);
   std::vector<Row> rows;
   std::map<std::string, std::string> failures;

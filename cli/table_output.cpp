@@ -142,21 +142,6 @@ std::string markdown_table(const Cells& heading, const Rows& rows) {
   return text;
 }
 
-std::string csv_line(const Cells& cells) {
-  std::string line;
-  for (const std::string& cell : cells) {
-    if (&cell != &cells.front()) line += ',';
-    if (cell.find_first_of(",\"\r\n") == std::string::npos) {
-      line += cell;
-      continue;
-    }
-    line += '"';
-    for (const char c : cell) line += c == '"' ? std::string("\"\"") : std::string(1, c);
-    line += '"';
-  }
-  return line + "\n";
-}
-
 template <class Values>
 Cells plain_cells(const Values& values) {
   Cells cells;
@@ -240,6 +225,21 @@ void write_whole(const std::filesystem::path& file, const std::string& text) {
 }
 
 }  // namespace
+
+std::string csv_line(const Cells& cells) {
+  std::string line;
+  for (const std::string& cell : cells) {
+    if (&cell != &cells.front()) line += ',';
+    if (cell.find_first_of(",\"\r\n") == std::string::npos) {
+      line += cell;
+      continue;
+    }
+    line += '"';
+    for (const char c : cell) line += c == '"' ? std::string("\"\"") : std::string(1, c);
+    line += '"';
+  }
+  return line + "\n";
+}
 
 std::string table_text(const ResultTable& table) {
   return describe(table, "",

@@ -4,12 +4,16 @@
 
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include "cli/result_table.h"
 #include "cli/shard.h"
 #include "io/json.h"
 
 namespace brdfit::cli {
+
+// A line of a CSV file; cells with commas, quotes or line ends in quotes (RFC 4180).
+std::string csv_line(const std::vector<std::string>& cells);
 
 // Errors per material and candidate, mean, median, wins per measure, how often each effect is used, failures.
 std::string table_text(const ResultTable& table);

@@ -10,7 +10,6 @@
 namespace brdfit::fit {
 namespace {
 
-// Folds within a fit hold out blocks of the same grid: with the same seed, an inner fold would be empty.
 constexpr std::uint64_t kOtherSeed = 0x9e3779b97f4a7c15;
 
 bool has_slice_to_fit(const MeasuredTable& table, const FitOptions& options) {
@@ -50,13 +49,17 @@ SplitTable split_table(const MeasuredTable& table, int folds, int fold, std::uin
   return {MeasuredTable(table.grid(), std::move(seen)), MeasuredTable(table.grid(), std::move(held_out))};
 }
 
+std::uint64_t held_out_seed(std::uint64_t seed) {
+  return seed ^ kOtherSeed;
+}
+
 HeldOutEvaluation evaluate_held_out(const MeasuredTable& table, const FitOptions& options,
                                     const FitTable& fit_table) {
   FitOptions without_init = options;
   without_init.init.reset();
   HeldOutEvaluation result;
   for (int fold = 0; fold < options.held_out_folds; ++fold) {
-    const SplitTable split = split_table(table, options.held_out_folds, fold, options.seed ^ kOtherSeed);
+    const SplitTable split = split_table(table, options.held_out_folds, fold, held_out_seed(options.seed));
     if (split.seen.valid_count() == 0 || split.held_out.valid_count() == 0) continue;
     if (!has_slice_to_fit(split.seen, options)) continue;
     const FitResult fitted = fit_table(split.seen, without_init);

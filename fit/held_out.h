@@ -48,13 +48,17 @@ struct SplitTable {
 };
 SplitTable split_table(const MeasuredTable& table, int folds, int fold, std::uint64_t seed);
 
+// The seed of the blocks that evaluate_held_out() loses, for fits with that seed: another than that of a
+// choice of groups, whose inner folds would be empty otherwise.
+std::uint64_t held_out_seed(std::uint64_t seed);
+
 // Fits a table with options: fit(), or what chooses a loss too. It must look at nothing else that comes from
 // the whole table.
 using FitTable = std::function<FitResult(const MeasuredTable&, const FitOptions&)>;
 
 // options.held_out_folds times `fit_table`, each without an initial material, which may come from all of the
-// data. Folds with nothing to fit or to compare are left out. The blocks are drawn with another seed than
-// those of a choice of groups. Throws std::invalid_argument where no fold is left.
+// data. Folds with nothing to fit or to compare are left out. The blocks are those of held_out_seed(). Throws
+// std::invalid_argument where no fold is left.
 HeldOutEvaluation evaluate_held_out(const MeasuredTable& table, const FitOptions& options,
                                     const FitTable& fit_table);
 
