@@ -6,6 +6,7 @@
 #include <cstdio>
 
 #include "cli/cost/cost_database.h"
+#include "cli/cost/cost_page.h"
 #include "cli/cost/table_cost.h"
 #include "cli/table_input.h"
 #include "cli/threads.h"
@@ -57,7 +58,7 @@ void print_text(const Arguments& a, const std::string& file, const TableCost& co
   // What is said goes to another stream.
   std::fflush(stdout);
   const CostPaths paths = cost_paths(a.output, base_name(file));
-  say(a.common, fmt::format("wrote {} and .json", paths.csv.string()));
+  say(a.common, fmt::format("wrote {}, .html and .json", paths.csv.string()));
   if (!cost.material.empty()) say(a.common, "wrote " + cost.material.string());
 }
 
@@ -152,13 +153,14 @@ class Database {
     const std::vector<std::string> sentences = database_sentences(database, runs_);
     const io::Json json = database_json(database, sentences);
     write_whole(output("csv"), database_csv(database));
+    write_whole(output("html"), cost_page(runs_, sentences));
     io::write_json(output("json"), json);
     if (a_.common.json) {
       fmt::print("{}\n", json.dump(2));
       return;
     }
     for (const std::string& sentence : sentences) fmt::print("{}\n", sentence);
-    say(a_.common, fmt::format("wrote {} and .json", output("csv").string()));
+    say(a_.common, fmt::format("wrote {}, .html and .json", output("csv").string()));
   }
 
   const Arguments& a_;
@@ -198,11 +200,12 @@ Command add_cost_command(CLI::App& program) {
       "measurement of the material that is written.\n"
       "Exit code 4: no point keeps the limits; the nearest one is named.\n"
       "Example: brdfit cost blue-fabric.binary -o out\n"
-      "writes out/blue-fabric.cost.csv and .json.\n"
+      "writes out/blue-fabric.cost.csv, .html and .json.\n"
       "Example: brdfit cost blue-fabric.binary --budget-ns 20 -o out\n"
       "writes out/blue-fabric.MODEL.json too, the most accurate material that is evaluated in 20 ns.\n"
       "Example: brdfit cost merl/ --quick -o out\n"
-      "writes those files for each table, and out/cost.csv and .json with quantiles over materials; started\n"
+      "writes those files for each table, and out/cost.csv, .html and .json with quantiles over materials; "
+      "started\n"
       "again, it goes on where it stopped.");
   app->add_option("input", a->input, "MERL-format .binary file, or a folder of them")->required();
   app->add_option("-o,--output", a->output, "folder for the files")->capture_default_str()->take_last();

@@ -10,7 +10,7 @@
 #include "brdf/models.h"
 #include "brdf/product_eval.h"
 #include "brdf/simd/dispatch.h"
-#include "cli/common.h"
+#include "cli/cost/paired_timing.h"
 #include "measured/grid_geometry.h"
 
 namespace brdfit::cli {

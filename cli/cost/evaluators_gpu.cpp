@@ -2,9 +2,9 @@
 #include <algorithm>
 #include <memory>
 
-#include "cli/common.h"
 #include "cli/cost/cost_point.h"
 #include "cli/cost/evaluators.h"
+#include "cli/cost/paired_timing.h"
 #include "gpu/float_material.h"
 #include "gpu/material_pass.h"
 

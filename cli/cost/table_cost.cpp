@@ -6,6 +6,7 @@
 
 #include <algorithm>
 
+#include "cli/cost/cost_page.h"
 #include "cli/cost/paired_timing.h"
 #include "cli/fit_request.h"
 #include "cli/result_json.h"
@@ -146,7 +147,7 @@ TableCost measure_table_cost(const TableCostRequest& request, const std::string&
         budget_json(*cost.budget, request.limits, cost.run, cost.material.filename().string());
   }
   stop_if_interrupted();
-  const std::string page;
+  const std::string page = cost_page(std::span(&cost.run, 1), sentences_of(cost.findings));
   write_cost_files(cost_paths(request.output, base_name(file)), cost.run, cost.json, page);
   return cost;
 }

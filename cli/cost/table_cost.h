@@ -36,10 +36,10 @@ struct TableCost {
 // Throws UsageError where one of the files that a run would write is there and --force is off.
 void prepare_table_cost(const TableCostRequest& request, const std::string& file);
 
-// Sweeps, spends the budget if there are limits, and writes NAME.cost.csv, .json, and the material that the
-// budget bought as NAME.MODEL.json. A material is written only when it kept the limits when it was measured
-// again as the file holds it. Throws IoError, std::runtime_error when interrupted (then nothing of this table
-// is written).
+// Sweeps, spends the budget if there are limits, and writes NAME.cost.csv, .html, .json, and the material
+// that the budget bought as NAME.MODEL.json. A material is written only when it kept the limits when it was
+// measured again as the file holds it. Throws IoError, std::runtime_error when interrupted (then nothing of
+// this table is written).
 TableCost measure_table_cost(const TableCostRequest& request, const std::string& file,
                              const Evaluators& evaluators);
 
