@@ -139,11 +139,19 @@ TEST(Findings, WhatWasNotMeasuredIsNotSpokenOf) {
 }
 
 TEST(Findings, StacksAreBaked) {
-  CostRun run = cost_run({cost_point("8 lobes", "default", {{"K", "8"}}, 10, 1, 20),
-                          cost_point("4 lobes", "K", {{"K", "4"}}, 10.01, 0.5, 10)});
+  CostRun run = cost_run({cost_point("8 lobes", "default", {{"lobes", "8"}}, 10, 1, 20),
+                          cost_point("4 lobes", "lobes", {{"lobes", "4"}}, 10.01, 0.5, 10)});
   run.kind = "stack";
   EXPECT_THAT(sentences_of(findings_of(run)),
-              Contains("After 4 K nothing improves by more than 1%; 8 take 2.0x as long to bake."));
+              Contains("After 4 lobes nothing improves by more than 1%; 8 take 2.0x as long to bake."));
+}
+
+TEST(Findings, MoreOfARidgeIsNoMore) {
+  CostRun run = cost_run({cost_point("8 lobes", "default", {{"ridge-factor", "1"}}, 10, 1, 20),
+                          cost_point("ridge x 10", "ridge-factor", {{"ridge-factor", "10"}}, 12, 1, 20)});
+  const std::vector<std::string> sentences = sentences_of(findings_of(run));
+  EXPECT_THAT(sentences, testing::Not(Contains(testing::HasSubstr("nothing improves"))));
+  EXPECT_THAT(sentences, Contains(testing::HasSubstr("ridge x 10 reaches 83% of the accuracy of 8 lobes")));
 }
 
 }  // namespace

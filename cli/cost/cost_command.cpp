@@ -1,4 +1,4 @@
-// brdfit cost: what accuracy costs in time, for a table or a folder of them.
+// brdfit cost: what accuracy costs in time, for a table, a folder of them, or a light stack.
 #include "cli/cost/cost_command.h"
 
 #include <fmt/format.h>
@@ -7,6 +7,7 @@
 
 #include "cli/cost/cost_database.h"
 #include "cli/cost/cost_page.h"
+#include "cli/cost/stack_cost.h"
 #include "cli/cost/table_cost.h"
 #include "cli/table_input.h"
 #include "cli/threads.h"
@@ -21,7 +22,8 @@ struct Arguments {
   std::string input;
   std::string output = ".";
   std::string device;
-  std::string error = kTableLeadingError;
+  BakeArguments bake;
+  std::string error;  // empty: the usual one
   bool quick = false;
   int repeats = TableSweepOptions().repeats;
   int folds = TableSweepOptions().folds;
@@ -33,24 +35,33 @@ constexpr int kQuickRepeats = 3;
 constexpr int kQuickFolds = 2;
 
 bool is_stack(const std::string& input) {
-  return std::filesystem::path(input).extension() == ".json";
+  const std::filesystem::path ending = std::filesystem::path(input).extension();
+  return ending == ".json" || ending == ".lp";
+}
+
+// The error that decides, one of these.
+std::string leading_error(const Arguments& a, const char* usual, const std::vector<std::string>& keys) {
+  if (a.error.empty()) return usual;
+  if (std::ranges::find(keys, a.error) != keys.end()) return a.error;
+  throw UsageError(fmt::format("--error is \"{}\", not one of {}", a.error, fmt::join(keys, ", ")));
 }
 
 TableCostRequest request_from(const Arguments& a, const std::string& command_line) {
   TableCostRequest request;
   request.common = a.common;
-  request.sweep = {a.fit, a.quick, a.repeats, a.folds, a.error, a.device};
+  request.sweep = {
+      a.fit,   a.quick, a.repeats, a.folds, leading_error(a, kTableLeadingError, table_error_keys(a.folds)),
+      a.device};
   request.limits = a.limits;
   request.output = a.output;
   request.command = command_line;
-  const std::vector<std::string> keys = table_error_keys(a.folds);
-  if (std::ranges::find(keys, a.error) == keys.end()) {
-    throw UsageError(fmt::format("--error is \"{}\", not one of {}", a.error, fmt::join(keys, ", ")));
-  }
   return request;
 }
 
-void print_text(const Arguments& a, const std::string& file, const TableCost& cost) {
+// made: what a budget was spent on; empty: nothing.
+template <class Cost>
+void print_text(const Arguments& a, const std::string& file, const Cost& cost,
+                const std::filesystem::path& made) {
   fmt::print("{}\n", fronts_text(cost.run));
   for (const Finding& finding : cost.findings) fmt::print("{}\n", finding.text);
   for (const std::string& note : cost.run.notes) fmt::print("note: {}\n", note);
@@ -59,10 +70,11 @@ void print_text(const Arguments& a, const std::string& file, const TableCost& co
   std::fflush(stdout);
   const CostPaths paths = cost_paths(a.output, base_name(file));
   say(a.common, fmt::format("wrote {}, .html and .json", paths.csv.string()));
-  if (!cost.material.empty()) say(a.common, "wrote " + cost.material.string());
+  if (!made.empty()) say(a.common, "wrote " + made.string());
 }
 
-bool is_over_budget(const TableCost& cost) {
+template <class Cost>
+bool is_over_budget(const Cost& cost) {
   return cost.budget && !cost.budget->point;
 }
 
@@ -72,7 +84,31 @@ int run_one(const Arguments& a, const TableCostRequest& request) {
   if (a.common.json) {
     fmt::print("{}\n", cost.json.dump(2));
   } else {
-    print_text(a, a.input, cost);
+    print_text(a, a.input, cost, cost.material);
+  }
+  return is_over_budget(cost) ? kNotAllDone : kDone;
+}
+
+int run_stack(const Arguments& a, const std::string& command_line) {
+  StackCostRequest request;
+  request.sweep.bake = a.bake;
+  request.sweep.bake.stack = a.input;
+  request.sweep.bake.common = a.common;
+  request.sweep.bake.seed = a.fit.seed;
+  request.sweep.quick = a.quick;
+  request.sweep.repeats = a.repeats;
+  request.sweep.device = a.device;
+  request.leading_error = leading_error(a, kStackLeadingError, stack_error_keys());
+  request.limits = a.limits;
+  request.output = a.output;
+  request.command = command_line;
+  const ThreadLimit threads(a.common.threads);
+  prepare_stack_cost(request);
+  const StackCost cost = measure_stack_cost(request);
+  if (a.common.json) {
+    fmt::print("{}\n", cost.json.dump(2));
+  } else {
+    print_text(a, a.input, cost, cost.asset);
   }
   return is_over_budget(cost) ? kNotAllDone : kDone;
 }
@@ -173,11 +209,45 @@ class Database {
 };
 
 int run(const Arguments& a, const std::string& command_line) {
-  if (is_stack(a.input)) throw UsageError(a.input + " is a light stack, which cost does not measure yet");
   const TableCostRequest request = request_from(a, command_line);
   const ThreadLimit threads(a.common.threads);
   if (std::filesystem::is_directory(a.input)) return Database(a, request).go();
   return run_one(a, request);
+}
+
+// What only one kind of input knows is no choice for the other.
+void refuse(const std::vector<CLI::Option*>& options, const char* input) {
+  for (const CLI::Option* option : options) {
+    if (option->count() > 0) throw UsageError(fmt::format("{} is not for {}", option->get_name(), input));
+  }
+}
+
+std::vector<CLI::Option*> add_stack_options(CLI::App& app, BakeArguments& bake) {
+  return {app.add_option("--transfer", bake.transfer,
+                         "light stacks: how pixels are encoded: linear, srgb or gamma-EXPONENT")
+              ->take_last(),
+          app.add_option("--base", bake.base,
+                         "light stacks: base model around which choices lie; auto: the better one held out")
+              ->check(CLI::IsMember({"auto", "lambert", "material"}))
+              ->capture_default_str()
+              ->take_last(),
+          app.add_option("--model", bake.model, "light stacks: the model that is fitted to all texels")
+              ->capture_default_str()
+              ->take_last(),
+          app.add_flag("--gains", bake.gains, "light stacks: estimate a gain of each light"),
+          app.add_option("--folds", bake.folds,
+                         "light stacks: folds of lights for held-out errors; 0: as bake has it")
+              ->check(CLI::Range(0, 10000))
+              ->capture_default_str()
+              ->take_last(),
+          app.add_option("--sample", bake.sample_texels, "light stacks: texels that are baked and compared")
+              ->check(CLI::Range(64, 10000000))
+              ->capture_default_str()
+              ->take_last(),
+          app.add_option("--memory", bake.memory_mib, "light stacks: MiB that pictures may take")
+              ->check(CLI::Range(16, 1 << 20))
+              ->capture_default_str()
+              ->take_last()};
 }
 
 void add_limit(CLI::App& app, const char* name, std::optional<double>& limit, const char* help) {
@@ -190,7 +260,8 @@ void add_limit(CLI::App& app, const char* name, std::optional<double>& limit, co
 
 Command add_cost_command(CLI::App& program) {
   auto a = std::make_shared<Arguments>();
-  CLI::App* app = program.add_subcommand("cost", "accuracy against time: what each choice of a fit buys");
+  CLI::App* app =
+      program.add_subcommand("cost", "accuracy against time: what each choice of a fit or of a bake buys");
   app->footer(
       "Accuracy is the inverse of the error that leads (--error): \"A reaches 94% of the accuracy of B\" "
       "says that\n"
@@ -206,41 +277,59 @@ Command add_cost_command(CLI::App& program) {
       "Example: brdfit cost merl/ --quick -o out\n"
       "writes those files for each table, and out/cost.csv, .html and .json with quantiles over materials; "
       "started\n"
-      "again, it goes on where it stopped.");
-  app->add_option("input", a->input, "MERL-format .binary file, or a folder of them")->required();
+      "again, it goes on where it stopped.\n"
+      "Example: brdfit cost lion/dirs.lp --transfer linear --budget-bytes 4 -o out\n"
+      "writes out/dirs.cost.csv, .html and .json, and the best bake of at most 4 bytes a texel.");
+  app->add_option("input", a->input,
+                  "MERL-format .binary file, a folder of them, or a light stack (olat.json, .lp)")
+      ->required();
   app->add_option("-o,--output", a->output, "folder for the files")->capture_default_str()->take_last();
   app->add_option("--error", a->error,
-                  "the error that decides: slice_, table_ or held_out_ with a measure, or sphere_delta_e")
-      ->capture_default_str();
+                  fmt::format("the error that decides: slice_, table_ or held_out_ with a measure, or "
+                              "sphere_delta_e (the usual: {}); of light stacks held_out_ or train_ with a "
+                              "measure (the usual: {})",
+                              kTableLeadingError, kStackLeadingError));
   add_limit(*app, "--budget-ns", a->limits.evaluation_ns, "most nanoseconds of an evaluation");
   add_limit(*app, "--budget-bytes", a->limits.bytes, "most bytes of a material");
   add_limit(*app, "--budget-seconds", a->limits.make_seconds, "most seconds of a fit");
   add_limit(*app, "--max-error", a->limits.error, "most of the error that decides");
   CLI::Option* repeats =
       app->add_option("--repeats", a->repeats,
-                      fmt::format("repeats of every time ({} with --quick)", kQuickRepeats))
+                      fmt::format("repeats of every time ({} with --quick; of light stacks {}, and 1 with "
+                                  "--quick)",
+                                  kQuickRepeats, StackSweepOptions().repeats))
           ->check(CLI::Range(1, 1000))
           ->capture_default_str();
   CLI::Option* folds =
       app->add_option(
              "--held-out", a->folds,
-             fmt::format("folds of blocks of angles for held-out errors, 0 for none ({} with --quick)",
-                         kQuickFolds))
+             fmt::format(
+                 "tables: folds of blocks of angles for held-out errors, 0 for none ({} with --quick)",
+                 kQuickFolds))
           ->check(CLI::IsMember({0, 2, 3, 4, 5, 6, 7, 8, 9, 10}))
           ->capture_default_str();
   app->add_flag("--quick", a->quick, "a third of the points, fewer repeats");
   app->add_option("--device", a->device,
                   "Vulkan device: its index or a part of its name; the first where not given");
-  app->add_option("--max-theta", a->fit.max_theta_deg,
-                  "leave out directions further from the normal, in degrees")
-      ->capture_default_str();
+  std::vector<CLI::Option*> of_tables = {
+      folds,
+      app->add_option("--max-theta", a->fit.max_theta_deg,
+                      "tables: leave out directions further from the normal, in degrees")
+          ->capture_default_str(),
+      app->add_option("--cell", a->fit.cell, "tables: where in its cell a stored value belongs")
+          ->check(CLI::IsMember({"lower-edge", "centre"}))
+          ->capture_default_str(),
+      app->add_flag("--lenient", a->fit.lenient, "tables: count values that are not finite as unmeasured")};
+  std::vector<CLI::Option*> of_stacks = add_stack_options(*app, a->bake);
   app->add_option("--seed", a->fit.seed, "of samples, starts and folds")->capture_default_str();
-  app->add_option("--cell", a->fit.cell, "where in its cell a stored value belongs")
-      ->check(CLI::IsMember({"lower-edge", "centre"}))
-      ->capture_default_str();
-  app->add_flag("--lenient", a->fit.lenient, "count values that are not finite as unmeasured");
   add_common_options(*app, a->common, true);
-  return {app, [a, repeats, folds](const std::string& command_line) {
+  return {app, [a, repeats, folds, of_tables, of_stacks](const std::string& command_line) {
+            if (is_stack(a->input)) {
+              refuse(of_tables, "light stacks");
+              if (repeats->count() == 0) a->repeats = StackSweepOptions().repeats;
+              return run_stack(*a, command_line);
+            }
+            refuse(of_stacks, "tables");
             if (a->quick && repeats->count() == 0) a->repeats = kQuickRepeats;
             if (a->quick && folds->count() == 0) a->folds = kQuickFolds;
             return run(*a, command_line);

@@ -22,6 +22,23 @@ std::vector<std::string> table_error_keys(int folds) {
   return keys;
 }
 
+namespace {
+
+// Of light stacks, in 1/255.
+std::string stack_error_title(const std::string& key) {
+  for (const auto& [prefix, where] : {std::pair("held_out_", "held out"), {"train_", "in training"}}) {
+    for (const auto& [measure, title] : {std::pair("rgb_rmse_255", "RMSE/255 of RGB"),
+                                         {"rmse_255", "RMSE/255 of luminance"},
+                                         {"lit_rmse_255", "RMSE/255 where lit"},
+                                         {"worst_light_rmse_255", "RMSE/255 under the worst light"}}) {
+      if (key == std::string(prefix) + measure) return fmt::format("{}, {}", title, where);
+    }
+  }
+  return key;
+}
+
+}  // namespace
+
 std::string error_title(const std::string& key) {
   if (key == "sphere_delta_e") return kSphereTitle;
   for (const auto& [prefix, where] :
@@ -30,7 +47,7 @@ std::string error_title(const std::string& key) {
       if (key == std::string(prefix) + measure.key) return fmt::format("{} {}", measure.title, where);
     }
   }
-  return key;
+  return stack_error_title(key);
 }
 
 }  // namespace brdfit::cli

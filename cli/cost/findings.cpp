@@ -180,11 +180,18 @@ class Writer {
     }
   }
 
-  // A plateau of the numbers, and each word against the default.
+  // Of what more is better, if anything: not of a ridge.
+  static bool is_amount(const std::string& sweep) {
+    return sweep == "samples" || sweep == "starts" || sweep == "lobes";
+  }
+
+  // A plateau of amounts, and each other choice against the default.
   void say_choices(const std::string& sweep) {
-    if (const std::optional<Plateau> plateau = plateau_of(run_, sweep)) say_plateau(sweep, *plateau);
+    const std::optional<Plateau> plateau =
+        is_amount(sweep) ? plateau_of(run_, sweep) : std::optional<Plateau>();
+    if (plateau) say_plateau(sweep, *plateau);
     for (const CostPoint* point : points_of(sweep)) {
-      if (!positive_number(setting_of(*point, sweep)))
+      if (!plateau || !positive_number(setting_of(*point, sweep)))
         add(sweep, comparison(*point, *default_), {point, default_});
     }
   }
@@ -271,6 +278,13 @@ class Writer {
         {&least, &most});
   }
 
+  // "in float on processor"; the device alone where that says it all.
+  static std::string evaluator_of(const CostPoint& point) {
+    const std::string scalar = setting_of(point, "scalar");
+    return fmt::format("{}on {}", scalar.empty() ? scalar : fmt::format("in {} ", scalar),
+                       setting_of(point, "device"));
+  }
+
   void say_devices() {
     const std::vector<const CostPoint*> points = points_of("device");
     for (const CostPoint* point : points) {
@@ -279,10 +293,9 @@ class Writer {
         continue;
       const double change = error(first) > 0.0 ? std::abs(error(*point) / error(first) - 1.0) : 0.0;
       add("device",
-          fmt::format("An evaluation in {} on {} takes {} that in {} on {}; the error {}.",
-                      setting_of(*point, "scalar"), setting_of(*point, "device"),
+          fmt::format("An evaluation {} takes {} that {}; the error {}.", evaluator_of(*point),
                       ratio_text(point->evaluation_ns, first.evaluation_ns, "the time of"),
-                      setting_of(first, "scalar"), setting_of(first, "device"),
+                      evaluator_of(first),
                       change > 0.0 ? fmt::format("differs by {:.1g}% of it", 100.0 * change) : "is the same"),
           {point, &first});
     }
