@@ -112,7 +112,7 @@ inline int expect_comparisons_follow(const std::vector<Row>& table, const io::Js
       R"(Without (\S+) the error is ([0-9.]+)% (higher|lower), at (\S+) the run-time cost\.)");
   const std::regex least(R"(The least error, (\S+) \(.*\), is that of .*)");
   int compared = 0;
-  for (const Json& sentence : json["sentences"]) {
+  for (const io::Json& sentence : json["sentences"]) {
     const std::string text = sentence["text"];
     const std::vector<std::string> points = sentence["points"];
     std::smatch found;

@@ -58,9 +58,9 @@ TableCostRequest request_from(const Arguments& a, const std::string& command_lin
   return request;
 }
 
-// made: what a budget was spent on; empty: nothing.
+// name: of the files. made: what a budget was spent on; empty: nothing.
 template <class Cost>
-void print_text(const Arguments& a, const std::string& file, const Cost& cost,
+void print_text(const Arguments& a, const std::string& name, const Cost& cost,
                 const std::filesystem::path& made) {
   fmt::print("{}\n", fronts_text(cost.run));
   for (const Finding& finding : cost.findings) fmt::print("{}\n", finding.text);
@@ -68,7 +68,7 @@ void print_text(const Arguments& a, const std::string& file, const Cost& cost,
   if (cost.budget) fmt::print("\n{}\n", budget_text(*cost.budget, a.limits, cost.run));
   // What is said goes to another stream.
   std::fflush(stdout);
-  const CostPaths paths = cost_paths(a.output, base_name(file));
+  const CostPaths paths = cost_paths(a.output, name);
   say(a.common, fmt::format("wrote {}, .html and .json", paths.csv.string()));
   if (!made.empty()) say(a.common, "wrote " + made.string());
 }
@@ -84,7 +84,7 @@ int run_one(const Arguments& a, const TableCostRequest& request) {
   if (a.common.json) {
     fmt::print("{}\n", cost.json.dump(2));
   } else {
-    print_text(a, a.input, cost, cost.material);
+    print_text(a, base_name(a.input), cost, cost.material);
   }
   return is_over_budget(cost) ? kNotAllDone : kDone;
 }
@@ -108,7 +108,7 @@ int run_stack(const Arguments& a, const std::string& command_line) {
   if (a.common.json) {
     fmt::print("{}\n", cost.json.dump(2));
   } else {
-    print_text(a, a.input, cost, cost.asset);
+    print_text(a, request.name(), cost, cost.asset);
   }
   return is_over_budget(cost) ? kNotAllDone : kDone;
 }

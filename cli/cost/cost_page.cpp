@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include "cli/cost/error_keys.h"
 #include "cli/cost/paired_timing.h"
 #include "cli/version.h"
 #include "render/cost_plot.h"
@@ -52,7 +53,7 @@ std::string number_or_dash(double value) {
 // What is said of a point wherever it is pointed at.
 std::string title_of(const CostPoint& point, const CostRun& run) {
   const Words words = words_of(run);
-  std::string text = fmt::format("{} ({}): {} {}", point.name, point.sweep, run.leading_error,
+  std::string text = fmt::format("{} ({}): {} {}", point.name, point.sweep, error_title(run.leading_error),
                                  number_or_dash(error_of(point, run.leading_error)));
   if (std::isfinite(point.make_seconds.median)) {
     text += fmt::format(", {} {}", shown(point.make_seconds.median), words.make);
@@ -88,7 +89,7 @@ render::CostPlot empty_plot(const CostRun& run, std::string title, std::string c
   render::CostPlot plot;
   plot.title = std::move(title);
   plot.cost_name = std::move(cost_name);
-  plot.error_name = run.leading_error;
+  plot.error_name = error_title(run.leading_error);
   plot.series = sweeps_of(run.points);
   return plot;
 }
@@ -174,7 +175,7 @@ render::CostPlot gain_plot(const CostRun& run) {
   const Words words = words_of(run);
   render::CostPlot plot = empty_plot(run, run.input + ": what each choice gains against what it costs",
                                      words.evaluation + " more");
-  plot.error_name = "% less " + run.leading_error;
+  plot.error_name = "% less " + error_title(run.leading_error);
   plot.with_zero = true;
   for (std::size_t k = 0; k < run.points.size(); ++k) {
     const CostPoint& point = run.points[k];
@@ -184,7 +185,7 @@ render::CostPlot gain_plot(const CostRun& run) {
         100.0 * (1.0 - error_of(point, run.leading_error) / error_of(before, run.leading_error));
     const double extra = point.evaluation_ns.median - before.evaluation_ns.median;
     plot.points.push_back({fmt::format("{} ({}) against {}: {} {}, {}", point.name, point.sweep, before.name,
-                                       less_or_more(-gain, "%"), run.leading_error,
+                                       less_or_more(-gain, "%"), error_title(run.leading_error),
                                        less_or_more(extra, " " + words.evaluation)),
                            index_in(plot.series, point.sweep), render::PlotSpread::of(extra),
                            render::PlotSpread::of(gain), false, fmt::format("p{}", k)});
@@ -336,7 +337,7 @@ std::string run_html(const CostRun& run, bool is_open) {
   std::string html = fmt::format("<section class=\"run\">\n<details{}><summary><h2>{}</h2></summary>\n",
                                  is_open ? " open=\"\"" : "", xml_escaped(run.input));
   html += fmt::format("<p class=\"legend\">{} points. The error is {}: lower is better.", run.points.size(),
-                      xml_escaped(run.leading_error));
+                      xml_escaped(error_title(run.leading_error)));
   if (std::isfinite(run.reference_seconds.median) && run.reference_seconds.median > 0.0) {
     html += fmt::format(
         " A fixed workload, by which figures of other machines can be compared, took {} ms ({} to {}) "

@@ -163,7 +163,9 @@ class Writer {
   void say_sweeps() {
     std::vector<std::string> sweeps;
     for (const CostPoint& point : run_.points) {
-      if (point.sweep != "default" && std::ranges::find(sweeps, point.sweep) == sweeps.end()) {
+      // Points that vary several choices at once are there for the fronts.
+      const bool is_one_choice = point.sweep != "default" && point.sweep.find(',') == std::string::npos;
+      if (is_one_choice && std::ranges::find(sweeps, point.sweep) == sweeps.end()) {
         sweeps.push_back(point.sweep);
       }
     }

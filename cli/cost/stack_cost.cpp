@@ -10,21 +10,16 @@
 #include "cli/cost/pareto.h"
 #include "cli/cost/table_sweep.h"
 #include "cli/exit_codes.h"
-#include "cli/table_input.h"
 #include "io/sha256.h"
+#include "io/stack_source.h"
 
 namespace brdfit::cli {
 namespace {
 
 namespace fs = std::filesystem;
 
-CostPaths paths_of(const StackCostRequest& request) {
-  return cost_paths(request.output, base_name(request.sweep.bake.stack));
-}
-
-// The asset of a choice takes the stack's own name for files of the sweep, so that both lie side by side.
 fs::path asset_path(const StackCostRequest& request) {
-  return request.output / (base_name(request.sweep.bake.stack) + ".realis.json");
+  return request.output / (request.name() + ".realis.json");
 }
 
 // All that decides what is measured.
@@ -47,7 +42,6 @@ std::string request_of(const StackCostRequest& request) {
 
 fs::path write_asset(const StackCostRequest& request, const CostPoint& point) {
   StackSweepOptions options = request.sweep;
-  options.bake.name = base_name(request.sweep.bake.stack);
   options.bake.common.json = false;
   options.bake.common.quiet = true;
   if (write_stack_choice(point, options, request.output) != kDone) {
@@ -58,9 +52,13 @@ fs::path write_asset(const StackCostRequest& request, const CostPoint& point) {
 
 }  // namespace
 
+std::string StackCostRequest::name() const {
+  return io::read_stack_source(sweep.bake.stack).name;
+}
+
 void prepare_stack_cost(const StackCostRequest& request) {
   const bool force = request.sweep.bake.common.force;
-  const CostPaths paths = paths_of(request);
+  const CostPaths paths = cost_paths(request.output, request.name());
   for (const fs::path& path : {paths.csv, paths.json, paths.html}) prepare_output(path, force);
   if (request.limits.any()) prepare_output(asset_path(request), force);
 }
@@ -84,7 +82,7 @@ StackCost measure_stack_cost(const StackCostRequest& request) {
     cost.json["budget"] = budget_json(*cost.budget, request.limits, cost.run, cost.asset.filename().string());
   }
   stop_if_interrupted();
-  write_cost_files(paths_of(request), cost.run, cost.json,
+  write_cost_files(cost_paths(request.output, request.name()), cost.run, cost.json,
                    cost_page(std::span(&cost.run, 1), sentences_of(cost.findings)));
   return cost;
 }

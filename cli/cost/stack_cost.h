@@ -19,6 +19,9 @@ struct StackCostRequest {
   Limits limits;
   std::filesystem::path output;  // folder
   std::string command;           // the line that was typed
+
+  // Of the files that are written: the stack's, as `brdfit bake` has it. Throws IoError.
+  std::string name() const;
 };
 
 struct StackCost {
