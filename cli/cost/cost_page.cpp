@@ -50,24 +50,28 @@ std::string number_or_dash(double value) {
   return std::isfinite(value) ? shown(value) : "–";
 }
 
+double median_of(const RepeatedTime& time) {
+  return time.is_measured() ? time.median : kNotMeasured;
+}
+
 // What is said of a point wherever it is pointed at.
 std::string title_of(const CostPoint& point, const CostRun& run) {
   const Words words = words_of(run);
   std::string text = fmt::format("{} ({}): {} {}", point.name, point.sweep, error_title(run.leading_error),
                                  number_or_dash(error_of(point, run.leading_error)));
-  if (std::isfinite(point.make_seconds.median)) {
-    text += fmt::format(", {} {}", shown(point.make_seconds.median), words.make);
+  if (std::isfinite(median_of(point.make_seconds))) {
+    text += fmt::format(", {} {}", shown(median_of(point.make_seconds)), words.make);
   }
-  if (std::isfinite(point.evaluation_ns.median)) {
-    text += fmt::format(", {} {}", shown(point.evaluation_ns.median), words.evaluation);
+  if (std::isfinite(median_of(point.evaluation_ns))) {
+    text += fmt::format(", {} {}", shown(median_of(point.evaluation_ns)), words.evaluation);
   }
   if (std::isfinite(point.bytes)) text += fmt::format(", {} {}", shown(point.bytes), words.bytes);
   return text;
 }
 
 render::PlotSpread spread_of(const RepeatedTime& time) {
-  if (!std::isfinite(time.low_quartile) || !std::isfinite(time.high_quartile)) {
-    return render::PlotSpread::of(time.median);
+  if (!time.is_measured() || !std::isfinite(time.low_quartile) || !std::isfinite(time.high_quartile)) {
+    return render::PlotSpread::of(median_of(time));
   }
   return {time.median, std::min(time.low_quartile, time.median), std::max(time.high_quartile, time.median)};
 }
@@ -183,7 +187,7 @@ render::CostPlot gain_plot(const CostRun& run) {
     if (&before == &point || point.sweep == "device") continue;
     const double gain =
         100.0 * (1.0 - error_of(point, run.leading_error) / error_of(before, run.leading_error));
-    const double extra = point.evaluation_ns.median - before.evaluation_ns.median;
+    const double extra = median_of(point.evaluation_ns) - median_of(before.evaluation_ns);
     plot.points.push_back({fmt::format("{} ({}) against {}: {} {}, {}", point.name, point.sweep, before.name,
                                        less_or_more(-gain, "%"), error_title(run.leading_error),
                                        less_or_more(extra, " " + words.evaluation)),
@@ -255,10 +259,11 @@ std::vector<Column> columns_of(const CostRun& run) {
     columns.push_back({name, name, [name](const CostPoint& point) { return error_of(point, name); }});
   }
   const Words words = words_of(run);
-  columns.push_back({words.make, words.make, [](const CostPoint& point) { return point.make_seconds.median; },
+  columns.push_back({words.make, words.make,
+                     [](const CostPoint& point) { return median_of(point.make_seconds); },
                      [](const CostPoint& point) { return &point.make_seconds; }});
   columns.push_back({words.evaluation, words.evaluation,
-                     [](const CostPoint& point) { return point.evaluation_ns.median; },
+                     [](const CostPoint& point) { return median_of(point.evaluation_ns); },
                      [](const CostPoint& point) { return &point.evaluation_ns; }});
   columns.push_back({words.bytes, words.bytes, [](const CostPoint& point) { return point.bytes; }});
   columns.push_back(
@@ -380,8 +385,8 @@ void collect(const CostRun& run, std::vector<std::string>& order, std::map<std::
     const auto [place, is_new] = points.try_emplace(point.name, Across{point.sweep, {}, {}, {}});
     if (is_new) order.push_back(point.name);
     place->second.errors.push_back(error);
-    keep_finite(place->second.make_seconds, point.make_seconds.median);
-    keep_finite(place->second.evaluation_ns, point.evaluation_ns.median);
+    keep_finite(place->second.make_seconds, median_of(point.make_seconds));
+    keep_finite(place->second.evaluation_ns, median_of(point.evaluation_ns));
   }
 }
 
