@@ -4,12 +4,19 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <ostream>
 #include <string>
 #include <vector>
 
 #include "tests/fuzz/harness.h"
 
 namespace brdfit::fuzz {
+
+// In lists of tests, in place of bytes that are addresses.
+void PrintTo(const Harness& harness, std::ostream* out) {
+  *out << harness.name;
+}
+
 namespace {
 
 namespace fs = std::filesystem;
