@@ -109,7 +109,7 @@ double rounding_error(std::span<const CodeSearch> texels, const Quantiser& quant
   std::vector<double> errors(texels.size());
   tbb::parallel_for(std::size_t{0}, texels.size(), [&](std::size_t k) {
     std::array<int, kMaxLobes> codes{};
-    errors[k] = texels[k].find(quantiser, {}, search_steps(quantiser.bits),
+    errors[k] = texels[k].find(quantiser, {}, search_steps(quantiser.bits, texels[k].lobes().size()),
                                std::span(codes).first(quantiser.ranges.size()));
   });
   return std::accumulate(errors.begin(), errors.end(), 0.0);
@@ -119,7 +119,7 @@ std::vector<RealisRange> fitted_ranges(std::span<const CodeSearch> texels, std::
   Descent descent(texels, {bits, quantile_ranges(texels, lobes, bits, kTails[0])});
   for (const double tail : kTails) descent.start_from(quantile_ranges(texels, lobes, bits, tail));
   // Steps of many bits are so fine that moving a range's ends gains nothing.
-  const int rounds = search_steps(bits) > 0 ? kMostRounds : 0;
+  const int rounds = is_searched(bits) ? kMostRounds : 0;
   for (int round = 0; round < rounds; ++round) {
     const double before = descent.error();
     descent.round();

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <stdexcept>
 
 namespace brdfit::bake {
@@ -13,7 +14,7 @@ namespace {
 // Enough that ranges fitted to them cost others no more. With many bits it is the rare large amplitudes that
 // decide, and a search takes no time; with few bits it is the bulk.
 std::size_t most_range_texels(int bits) {
-  return search_steps(bits) > 0 ? 512 : 4096;
+  return is_searched(bits) ? 512 : 4096;
 }
 
 bool has_amplitudes(std::span<const float> amplitudes, std::size_t texels, std::size_t texel) {
@@ -154,7 +155,8 @@ Compressed compress_block(const LobeSystem& system, const TexelProblem& problem,
       dither[k] = dither_threshold(texels[texel] % wide, texels[texel] / wide, static_cast<int>(k));
     }
     const std::span<const double> noise(dither.data(), options.dither ? lobes : 0);
-    const std::vector<int> codes = quantise(equations, quantiser, mask, noise, search_steps(options.bits));
+    const int steps = search_steps(options.bits, static_cast<std::size_t>(std::popcount(mask)));
+    const std::vector<int> codes = quantise(equations, quantiser, mask, noise, steps);
     for (std::size_t k = 0; k < lobes; ++k) {
       out.codes[k * count + texel] = codes[k];
       out.amplitudes[k * count + texel] = static_cast<float>(quantiser.amplitude(k, codes[k]));

@@ -141,8 +141,8 @@ void expect_sound_codes(const LobeSet& lobes, double penalty) {
       const bake::Quantiser quantiser = {bits, bake::fitted_ranges(searches, lobes.size(), bits)};
       for (std::size_t i = 0; i < equations.size(); ++i) {
         std::vector<int> codes(lobes.size());
-        EXPECT_TRUE(
-            std::isfinite(searches[i].find(quantiser, LobeVector(), bake::search_steps(bits), codes)));
+        EXPECT_TRUE(std::isfinite(searches[i].find(
+            quantiser, LobeVector(), bake::search_steps(bits, searches[i].lobes().size()), codes)));
         LobeVector decoded(static_cast<Eigen::Index>(lobes.size()));
         for (std::size_t k = 0; k < lobes.size(); ++k) {
           EXPECT_GE(codes[k], quantiser.smallest_code(k));
