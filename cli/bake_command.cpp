@@ -46,16 +46,6 @@ void keep_freed_pages() {
   mallopt(M_TRIM_THRESHOLD, 1 << 30);
 }
 
-// Texels spread evenly over the picture: all of them where there are few.
-std::vector<std::uint32_t> sample_of(const StackInfo& info, std::size_t count) {
-  const std::size_t texels = info.texel_count();
-  std::vector<std::uint32_t> sample(std::min(texels, count));
-  for (std::size_t k = 0; k < sample.size(); ++k) {
-    sample[k] = static_cast<std::uint32_t>((2 * k + 1) * texels / (2 * sample.size()));
-  }
-  return sample;
-}
-
 // One bake from beginning to end.
 class Bake {
  public:
@@ -121,7 +111,7 @@ class Bake {
   }
 
   std::vector<std::uint32_t> sample_texels() const {
-    return sample_of(stack_.info(), static_cast<std::size_t>(a_.sample_texels));
+    return even_sample(stack_.info(), static_cast<std::size_t>(a_.sample_texels));
   }
 
   void decide() {

@@ -111,4 +111,13 @@ std::string BakeStack::weights_text() const {
   return text;
 }
 
+std::vector<std::uint32_t> even_sample(const StackInfo& info, std::size_t at_most) {
+  const std::size_t texels = info.texel_count();
+  std::vector<std::uint32_t> sample(std::min(texels, at_most));
+  for (std::size_t k = 0; k < sample.size(); ++k) {
+    sample[k] = static_cast<std::uint32_t>((2 * k + 1) * texels / (2 * sample.size()));
+  }
+  return sample;
+}
+
 }  // namespace brdfit::cli

@@ -2,9 +2,11 @@
 #ifndef BRDFIT_CLI_BAKE_STACK_H_
 #define BRDFIT_CLI_BAKE_STACK_H_
 
+#include <cstdint>
 #include <memory>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "bake/shrunk_stack.h"
 #include "bake/weighted_stack.h"
@@ -52,6 +54,9 @@ class BakeStack : public ImageStack {
   std::optional<bake::SensorNoise> noise_;
   std::unique_ptr<ContourPass> contours_;
 };
+
+// The texels on which choices are made: spread evenly over the picture, all of them where there are few.
+std::vector<std::uint32_t> even_sample(const StackInfo& info, std::size_t at_most);
 
 }  // namespace brdfit::cli
 

@@ -5,6 +5,9 @@
 #include <unistd.h>
 
 #include <cstdio>
+#include <stdexcept>
+
+#include "cli/common.h"
 
 namespace brdfit::cli {
 namespace {
@@ -62,6 +65,10 @@ void Progress::draw_bar(const std::string& what) {
 void Progress::wipe_bar() {
   fmt::print(stderr, "\r\x1b[K");
   std::fflush(stderr);
+}
+
+void stop_if_interrupted() {
+  if (interrupted()) throw std::runtime_error("interrupted; what is written is complete");
 }
 
 }  // namespace brdfit::cli

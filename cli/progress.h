@@ -37,6 +37,9 @@ class Progress {
   std::string last_;  // what the bar shows behind it
 };
 
+// Throws std::runtime_error after Ctrl-C, for commands that write whole files as they go.
+void stop_if_interrupted();
+
 }  // namespace brdfit::cli
 
 #endif  // BRDFIT_CLI_PROGRESS_H_

@@ -1,4 +1,4 @@
-// The errors of a table's points by their keys.
+// The errors of points by their keys, and what people call them.
 #ifndef BRDFIT_CLI_COST_ERROR_KEYS_H_
 #define BRDFIT_CLI_COST_ERROR_KEYS_H_
 

@@ -8,8 +8,8 @@
 
 #include "cli/cost/cost_page.h"
 #include "cli/cost/pareto.h"
-#include "cli/cost/table_sweep.h"
 #include "cli/exit_codes.h"
+#include "cli/progress.h"
 #include "io/sha256.h"
 #include "io/stack_source.h"
 

@@ -30,20 +30,6 @@ namespace {
 constexpr int kQuickFolds = 6;
 constexpr int kEvaluationsPerBake = 5;
 
-void stop_when_interrupted() {
-  if (interrupted()) throw std::runtime_error("interrupted");
-}
-
-// Texels spread evenly, as `brdfit bake` takes them.
-std::vector<std::uint32_t> even_sample(const StackInfo& info, std::size_t at_most) {
-  const std::size_t texels = info.texel_count();
-  std::vector<std::uint32_t> sample(std::min(texels, at_most));
-  for (std::size_t k = 0; k < sample.size(); ++k) {
-    sample[k] = static_cast<std::uint32_t>((2 * k + 1) * texels / (2 * sample.size()));
-  }
-  return sample;
-}
-
 // The stack in one size, with the texels that are baked of it.
 struct Size {
   StackInfo info;
@@ -209,7 +195,7 @@ class StackMeter {
     const Family& family = families_[f];
     const Size& size = sizes_.at(family.shrink);
     const bake::BakeSettings settings = settings_with(family, lobes);
-    stop_when_interrupted();
+    stop_if_interrupted();
     reset_peak_memory();
     const BothClocks clocks;
     bake::BakePlan plan = bake::plan_bake(size.info, size.sample, bake::all_lights(size.info), settings);
@@ -217,7 +203,7 @@ class StackMeter {
     const double plan_mib = peak_memory_mib();
     for (const std::size_t k : family.choices) {
       if (choices_[k].choice.lobes != lobes) continue;
-      stop_when_interrupted();
+      stop_if_interrupted();
       reset_peak_memory();
       const double reference = time_reference().cpu_seconds;
       // Pictures are decoded for the sample and for the strips.
@@ -315,7 +301,7 @@ class StackMeter {
       const bake::LightChoice kept = bake::without(info, out);
       if (kept.empty()) continue;
       for (const Family& family : families_) {
-        stop_when_interrupted();
+        stop_if_interrupted();
         const Size& size = sizes_.at(family.shrink);
         bake::BakeSettings settings = settings_with(family, family.lobes.front());
         settings.also_lobes.assign(family.lobes.begin() + 1, family.lobes.end());
@@ -343,7 +329,7 @@ class StackMeter {
     turns.repeats = options_.repeats * kEvaluationsPerBake;
     turns.cpu_time = true;
     turns.per_second = 1e9;
-    turns.before_each = stop_when_interrupted;
+    turns.before_each = stop_if_interrupted;
     return turns;
   }
 

@@ -240,10 +240,6 @@ class Sweep {
 
 }  // namespace
 
-void stop_if_interrupted() {
-  if (interrupted()) throw std::runtime_error("interrupted; what is written is complete");
-}
-
 TurnOptions evaluation_turns(int repeats) {
   TurnOptions turns;
   // Evaluations take milliseconds: more repeats cost nothing.

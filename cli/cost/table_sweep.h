@@ -78,9 +78,6 @@ CostRun sweep_table(const TableMeter& meter, const std::string& input, const std
 // How evaluations are timed where fits are `repeats` times: more often, in CPU time, in nanoseconds.
 TurnOptions evaluation_turns(int repeats);
 
-// Throws std::runtime_error when Ctrl-C was pressed.
-void stop_if_interrupted();
-
 }  // namespace brdfit::cli
 
 #endif  // BRDFIT_CLI_COST_TABLE_SWEEP_H_
