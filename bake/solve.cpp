@@ -1,10 +1,9 @@
-// What texels share, prepared for the vector code; one texel in double precision.
+// What texels share, prepared for the vector code.
 #include "bake/solve.h"
 
 #include <tbb/blocked_range.h>
 #include <tbb/parallel_for.h>
 
-#include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
@@ -40,17 +39,6 @@ void check(const LobeSystem& system, const TexelProblem& problem) {
                     (problem.weight.empty() || problem.weight.size() == size) &&
                     (problem.directions.empty() || problem.directions.size() == 3 * size);
   if (!fits) throw std::invalid_argument("solve: the problem's sizes disagree");
-}
-
-// gram^-1 right; mixes of lobes that the matrix does not determine get 0.
-Eigen::MatrixXd solved(const Eigen::MatrixXd& gram, const Eigen::MatrixXd& right) {
-  const Eigen::LLT<Eigen::MatrixXd> triangle(gram);
-  if (triangle.info() == Eigen::Success && triangle.rcond() > kSingular) return triangle.solve(right);
-  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(gram);
-  const double least = kSingular * std::max(eigen.eigenvalues().maxCoeff(), 0.0);
-  const Eigen::VectorXd inverse =
-      eigen.eigenvalues().unaryExpr([least](double v) { return v > least ? 1.0 / v : 0.0; });
-  return eigen.eigenvectors() * (inverse.asDiagonal() * (eigen.eigenvectors().transpose() * right));
 }
 
 }  // namespace
@@ -203,25 +191,6 @@ SolveResult solve(const LobeSystem& system, const TexelProblem& problem, const S
   if (!problem.directions.empty()) job.near = &near;
   solve_parallel(job, options.isa);
   return result;
-}
-
-TexelSolution solve_texel(const Eigen::MatrixXd& basis, const Eigen::VectorXd& residual,
-                          const Eigen::VectorXd& modulation, const Eigen::VectorXd& weight, double penalty) {
-  const Eigen::MatrixXd modulated = modulation.asDiagonal() * basis;
-  const Eigen::MatrixXd weighted = weight.asDiagonal() * modulated;
-  Eigen::MatrixXd gram = modulated.transpose() * weighted;
-  gram.diagonal().array() += penalty;
-  const Eigen::MatrixXd solver = solved(gram, weighted.transpose());
-  TexelSolution solution;
-  solution.amplitudes = solver * residual;
-  solution.hat = (modulated.array() * solver.transpose().array()).rowwise().sum();
-  solution.left = residual - modulated * solution.amplitudes;
-  solution.left_out = residual;
-  for (Eigen::Index l = 0; l < residual.size(); ++l) {
-    const double freedom = 1.0 - solution.hat[l];
-    if (freedom > kLeastFreedom) solution.left_out[l] = solution.left[l] / freedom;
-  }
-  return solution;
 }
 
 std::vector<float> lobe_sums(const LobeSet& lobes, std::span<const Vec3> directions,

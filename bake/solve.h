@@ -87,17 +87,6 @@ struct SolveResult {
 // In parallel over texels; identical for any number of threads.
 SolveResult solve(const LobeSystem& system, const TexelProblem& problem, const SolveOptions& options = {});
 
-// One texel in double precision.
-struct TexelSolution {
-  Eigen::VectorXd amplitudes;
-  Eigen::VectorXd hat;       // per light, the diagonal of the hat matrix
-  Eigen::VectorXd left;      // per light, residual - what lobes bring back
-  Eigen::VectorXd left_out;  // the same had the light not been there
-};
-// basis: lights x lobes. penalty >= 0, the diagonal. Mixes of lobes that the lights do not determine get 0.
-TexelSolution solve_texel(const Eigen::MatrixXd& basis, const Eigen::VectorXd& residual,
-                          const Eigen::VectorXd& modulation, const Eigen::VectorXd& weight, double penalty);
-
 // [light][texel]: the sum over lobes of amplitude x lobe under lights from these directions; of near ones,
 // under near_directions (as TexelProblem::directions; empty: there are none).
 std::vector<float> lobe_sums(const LobeSet& lobes, std::span<const Vec3> directions,

@@ -10,6 +10,7 @@
 #include <limits>
 
 #include "tests/lobe_data.h"
+#include "tests/texel_solution.h"
 
 namespace brdfit::bake {
 namespace {
@@ -84,7 +85,8 @@ TEST_F(BakeSolve, LeavesAResidualOrthogonalToEveryLobe) {
   for (const double penalty : {0.0, 0.3}) {
     for (std::size_t i = 0; i < problem.texels; ++i) {
       const Columns c = columns_of(problem, i);
-      const TexelSolution solution = solve_texel(basis, c.residual, c.modulation, c.weight, penalty);
+      const test_data::TexelSolution solution =
+          test_data::solve_texel(basis, c.residual, c.modulation, c.weight, penalty);
       const Eigen::VectorXd gradient =
           basis.transpose() * (c.weight.array() * c.modulation.array() * solution.left.array()).matrix() -
           penalty * solution.amplitudes;
@@ -99,11 +101,13 @@ TEST_F(BakeSolve, KnowsWhatRefitsWithoutEachLightWouldLeave) {
   const Eigen::MatrixXd basis = lobe_values(lobes, directions);
   for (std::size_t i = 0; i < problem.texels; ++i) {
     const Columns c = columns_of(problem, i);
-    const TexelSolution solution = solve_texel(basis, c.residual, c.modulation, c.weight, 0.05);
+    const test_data::TexelSolution solution =
+        test_data::solve_texel(basis, c.residual, c.modulation, c.weight, 0.05);
     for (Eigen::Index l = 0; l < basis.rows(); ++l) {
       Eigen::VectorXd weight = c.weight;
       weight[l] = 0.0;
-      const TexelSolution refit = solve_texel(basis, c.residual, c.modulation, weight, 0.05);
+      const test_data::TexelSolution refit =
+          test_data::solve_texel(basis, c.residual, c.modulation, weight, 0.05);
       EXPECT_NEAR(solution.left_out[l], refit.left[l], 1e-10);
     }
   }
@@ -122,8 +126,8 @@ TEST_F(BakeSolve, AgreesWithDoublePrecisionOnEveryInstructionSet) {
       const SolveResult result = solve(system, problem, options);
       for (std::size_t i = 0; i < problem.texels; ++i) {
         const Columns c = columns_of(problem, i);
-        const TexelSolution exact =
-            solve_texel(system.basis(), c.residual, c.modulation, c.weight, system.penalty());
+        const test_data::TexelSolution exact =
+            test_data::solve_texel(system.basis(), c.residual, c.modulation, c.weight, system.penalty());
         for (std::size_t k = 0; k < set.size(); ++k) {
           EXPECT_NEAR(result.amplitudes[k * problem.texels + i],
                       exact.amplitudes[static_cast<Eigen::Index>(k)], 2e-6);

@@ -9,6 +9,7 @@
 #include "bake/lobe_objective.h"
 #include "bake/solve.h"
 #include "tests/lobe_data.h"
+#include "tests/texel_solution.h"
 
 namespace brdfit::bake {
 namespace {
@@ -71,7 +72,7 @@ TEST(LobeObjective, IsTheLeaveOneOutErrorOfTexels) {
       residual[static_cast<Eigen::Index>(l)] = problem.residual[problem.at(l, i)];
       modulation[static_cast<Eigen::Index>(l)] = problem.modulation[problem.at(l, i)];
     }
-    error += solve_texel(basis, residual, modulation, Eigen::VectorXd::Ones(25), 0.05 * unit)
+    error += test_data::solve_texel(basis, residual, modulation, Eigen::VectorXd::Ones(25), 0.05 * unit)
                  .left_out.squaredNorm();
     energy += residual.squaredNorm();
   }
