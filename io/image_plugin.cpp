@@ -167,6 +167,7 @@ bool write_pixels(const std::string& file, const ImagePixels& pixels, const Imag
   }
   OIIO::ImageSpec spec(pixels.width, pixels.height, pixels.channels, oiio_type(options.type));
   spec.attribute("CompressionQuality", options.jpeg_quality);
+  spec.attribute("jpeg:subsampling", options.jpeg_subsampling);
   // An empty one: without any, EXR and TIFF say when they were written, and no two runs give the same bytes.
   spec.attribute("DateTime", "");
   // A fourth channel is written as it is given.

@@ -170,6 +170,22 @@ TEST(ImageReader, JpegQualityIsAsAsked) {
             2 * std::filesystem::file_size(folder / "q98.jpg"));
 }
 
+TEST(ImageReader, JpegKeepsTheColourOfEachPixelWhereAsked) {
+  const TempFolder folder;
+  // Columns of red and blue, which half as many colours cannot tell apart.
+  std::vector<std::uint8_t> samples(3 * 64 * 64, 0);
+  for (std::size_t k = 0; k < 64 * 64; ++k) samples[3 * k + (k % 2 == 0 ? 0 : 2)] = 200;
+  const auto red_of_blue = [&](const std::string& subsampling) {
+    const auto file = folder / ("s" + subsampling.substr(2, 1) + ".jpg");
+    write_image(file, pixels_of(64, 64, 3, SampleType::kUint8, samples),
+                {.type = SampleType::kUint8, .jpeg_quality = 100, .jpeg_subsampling = subsampling});
+    ImageReader reader(file);
+    return static_cast<int>(native<std::uint8_t>(reader, 0, 64)[3 * (64 * 20 + 21)]);
+  };
+  EXPECT_LT(red_of_blue("4:4:4"), 10);
+  EXPECT_GT(red_of_blue("4:2:0"), 50);
+}
+
 std::string message_of(const std::filesystem::path& file, IoError::Side side) {
   try {
     ImageReader reader(file);

@@ -48,7 +48,7 @@ StackRecipe odd_recipe() {
   recipe.faults.swapped = {{3, 4}, {9999, 0}};
   recipe.faults.upside_down = true;
   recipe.faults.hot_pixels = 1000000;
-  recipe.files = {"tif", "srgb", "json", true, true};
+  recipe.files = {"tif", "srgb", 100, "4:4:4", "json", true, true};
   recipe.seed = std::numeric_limits<std::uint64_t>::max();
   return recipe;
 }
@@ -123,7 +123,8 @@ TEST(StackRecipeSchema, RefusesWhatTheReaderRefuses) {
     {"faults": {"gains": [[-1, 2]]}}, {"faults": {"gains": {}}}, {"faults": {"swapped": [[1, 2.5]]}},
     {"faults": {"swapped": [[1]]}}, {"faults": {"swapped": [[10000, 1]]}}, {"faults": {"upside_down": 0}},
     {"faults": {"hot_pixels": -1}}, {"faults": {"hot_pixels": 1000001}}, {"faults": {"dust": 1}},
-    {"files": {"format": 1}}, {"files": {"format": "../exr"}}, {"files": {"transfer": "log"}}, {"files": {"manifest": "xml"}},
+    {"files": {"format": 1}}, {"files": {"format": "../exr"}}, {"files": {"transfer": "log"}},
+    {"files": {"jpeg_quality": 0}}, {"files": {"jpeg_quality": 101}}, {"files": {"jpeg_subsampling": "4:2:1"}}, {"files": {"manifest": "xml"}},
     {"files": {"give_normals": "yes"}}, {"files": {"depth": 8}},
     {"files": {"manifest": "lp"}, "lights": {"distance": 2}}, {"seed": -1}, {"seed": 0.5}
   ])");

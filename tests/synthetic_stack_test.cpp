@@ -230,7 +230,7 @@ TEST(StackRecipe, RoundTripsThroughJson) {
   StackRecipe recipe = recipe_of(Relief::kSphere);
   recipe.residual = {4, 6.0, 120.0, 0.3};
   recipe.faults = {{{1, 0.7}}, {{2, 3}}, true, 4};
-  recipe.files = {"jpg", "srgb", "lp", true, true};
+  recipe.files = {"jpg", "srgb", 95, "4:2:0", "lp", true, true};
   recipe.noise = {0.1, 0.2};
   recipe.seed = 0xffffffffffffffffU;
   EXPECT_EQ(stack_recipe_from_json(stack_recipe_to_json(recipe), "here"), recipe);

@@ -20,8 +20,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-constexpr int kJpegQuality = 95;
-
 io::SampleType depth_of(const std::string& format) {
   if (format == "exr") return io::SampleType::kFloat;
   return format == "jpg" || format == "jpeg" ? io::SampleType::kUint8 : io::SampleType::kUint16;
@@ -56,7 +54,7 @@ void write_photograph(const StackRecipe& recipe, const SyntheticStack& stack, st
   io::write_image(
       folder / info.lights[light].name,
       {info.width, info.height, 3, io::SampleType::kFloat, std::as_bytes(std::span<const float>(samples))},
-      {depth_of(recipe.files.format), kJpegQuality, {}});
+      {depth_of(recipe.files.format), recipe.files.jpeg_quality, recipe.files.jpeg_subsampling, {}});
 }
 
 io::Json manifest_of(const StackRecipe& recipe, const StackInfo& info) {

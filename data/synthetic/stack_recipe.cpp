@@ -24,6 +24,7 @@ constexpr double kMaxIntensity = 1e6;
 constexpr double kSmallest = 1e-6;  // of what may not be 0
 
 constexpr std::array<std::string_view, 3> kReliefs{"plane", "sphere", "bumps"};
+constexpr std::array<std::string_view, 4> kSubsamplings{"4:4:4", "4:2:2", "4:2:0", "4:1:1"};
 constexpr std::array<std::string_view, 3> kArrangements{"dome", "ring", "sparse"};
 
 // The place of a member's value among the names it may have.
@@ -104,6 +105,8 @@ StackFiles read_files(io::ObjectReader reader) {
   StackFiles files;
   files.format = reader.string("format", files.format);
   files.transfer = reader.string("transfer", files.transfer);
+  files.jpeg_quality = static_cast<int>(reader.integer("jpeg_quality", 1, 100, files.jpeg_quality));
+  files.jpeg_subsampling = reader.string("jpeg_subsampling", files.jpeg_subsampling);
   files.manifest = reader.string("manifest", files.manifest);
   files.give_normals = reader.boolean("give_normals", files.give_normals);
   files.give_albedo = reader.boolean("give_albedo", files.give_albedo);
@@ -158,6 +161,13 @@ std::string complaint_of(const StackRecipe& recipe) {
   }
   if (recipe.files.transfer != "linear" && recipe.files.transfer != "srgb") {
     return fmt::format("files.transfer is \"{}\", not linear or srgb", recipe.files.transfer);
+  }
+  const std::string& colours = recipe.files.jpeg_subsampling;
+  if (std::ranges::find(kSubsamplings, colours) == std::end(kSubsamplings)) {
+    return fmt::format("files.jpeg_subsampling is \"{}\", not {}", colours, fmt::join(kSubsamplings, ", "));
+  }
+  if (recipe.files.jpeg_quality < 1 || recipe.files.jpeg_quality > 100) {
+    return fmt::format("files.jpeg_quality is {}, not in [1, 100]", recipe.files.jpeg_quality);
   }
   if (recipe.files.manifest != "json" && recipe.files.manifest != "lp") {
     return fmt::format("files.manifest is \"{}\", not json or lp", recipe.files.manifest);
@@ -230,6 +240,8 @@ io::Json stack_recipe_to_json(const StackRecipe& recipe) {
                     {"hot_pixels", recipe.faults.hot_pixels}};
   json["files"] = {{"format", recipe.files.format},
                    {"transfer", recipe.files.transfer},
+                   {"jpeg_quality", recipe.files.jpeg_quality},
+                   {"jpeg_subsampling", recipe.files.jpeg_subsampling},
                    {"manifest", recipe.files.manifest},
                    {"give_normals", recipe.files.give_normals},
                    {"give_albedo", recipe.files.give_albedo}};
