@@ -5,6 +5,7 @@
 #include <tbb/parallel_for.h>
 
 #include <Eigen/Eigenvalues>
+#include <Eigen/QR>
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -26,6 +27,14 @@ namespace {
 constexpr double kSingular = 1e-10;
 // Texels that a task solves.
 constexpr std::size_t kGrain = 512;
+
+// The rotation Q for which M Q is an upper triangle: the QR decomposition of M with its rows turned over and
+// transposed, turned back.
+Eigen::MatrixXd turn_to_upper_triangle(const Eigen::MatrixXd& m) {
+  const Eigen::MatrixXd turned = m.colwise().reverse().transpose();
+  const Eigen::MatrixXd q = Eigen::HouseholderQR<Eigen::MatrixXd>(turned).householderQ();
+  return q.rowwise().reverse();
+}
 
 SolveFunction solve_function(simd::Isa isa) {
   using namespace simd;  // where the macro finds the instruction sets
@@ -90,8 +99,9 @@ void LobeSystem::pack(const Eigen::MatrixXd& gram) {
   const double smallest = eigen.eigenvalues().minCoeff();
   condition_ = smallest > kSingular * largest ? largest / smallest : std::numeric_limits<double>::infinity();
 
-  // Unknown k is the mix of lobes along eigenvector k, of the size at which the average texel's matrix,
-  // penalty and all, is the identity. Unknowns that nothing determines stay 0, as does the padding.
+  // Unknowns are mixes of lobes along eigenvectors, of the size at which the average texel's matrix, penalty
+  // and all, is the identity, turned until mixes are an upper triangle. Unknowns that nothing determines stay
+  // 0, as does the padding.
   Eigen::MatrixXd mixes = Eigen::MatrixXd::Zero(count, packed_.width);
   Eigen::MatrixXd penalty = Eigen::MatrixXd::Identity(packed_.width, packed_.width);
   for (Eigen::Index k = 0; k < count; ++k) {
@@ -100,6 +110,9 @@ void LobeSystem::pack(const Eigen::MatrixXd& gram) {
     mixes.col(k) = eigen.eigenvectors().col(k) / std::sqrt(size);
     penalty(k, k) = penalty_ / size;
   }
+  const Eigen::MatrixXd turn = turn_to_upper_triangle(mixes.leftCols(count));
+  mixes.leftCols(count) = (mixes.leftCols(count) * turn).triangularView<Eigen::Upper>();
+  penalty.topLeftCorner(count, count) = turn.transpose() * penalty.topLeftCorner(count, count) * turn;
   const Eigen::MatrixXd basis = basis_ * mixes;
 
   const auto lights = static_cast<std::size_t>(basis.rows());

@@ -64,7 +64,7 @@ struct SolveJob {
   const float* basis = nullptr;         // [padded light][width]
   const float* products = nullptr;      // [padded light][width (width + 1) / 2], lower triangles by rows
   const float* penalty = nullptr;       // [width (width + 1) / 2], likewise
-  const float* mixes = nullptr;         // [lobe][width]: amplitudes of the unknowns
+  const float* mixes = nullptr;         // [lobe][width]: amplitudes of the unknowns, an upper triangle
   float* scratch = nullptr;  // planes of padded lights x kMostTexelsAtOnce: 3, and `width` where near
   bool leave_one_out = true;
   bool select = true;

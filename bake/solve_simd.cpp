@@ -369,12 +369,31 @@ class TexelSolver {
           lower[entry(i, j)] = V(0.0) - value * inverse_diagonal[i];
         }
       }
+      if (job_.round != nullptr) find_followers(lower, w);
       for (int i = 0; i < P; ++i) {
         for (int j = 0; j <= i; ++j) {
           V value(0.0);
           for (int k = i; k < P; ++k) value = multiply_add(lower[entry(k, i)], lower[entry(k, j)], value);
           gram_[entry(i, j)].part[w] = value;
         }
+      }
+    }
+  }
+
+  // By how much the best values of lobes before k follow lobe k, all after it being known. Mixes are an upper
+  // triangle, and so is their product with the transpose of the Gram matrix's inverse triangle, which is a
+  // root of the amplitudes' covariance: its columns are what amplitudes have in common with that of k alone.
+  HWY_INLINE void find_followers(const V* inverse_lower, int w) {
+    for (int k = 0; k < job_.lobes; ++k) {
+      const V own = broadcast(job_.mixes[k * P + k]) * inverse_lower[entry(k, k)];
+      const auto known = own * own > V(kTiny);
+      const V share = select(known, V(1.0) / select(known, own, V(1.0)), V(0.0));
+      for (int j = 0; j < k; ++j) {
+        V value(0.0);
+        for (int i = j; i <= k; ++i) {
+          value = multiply_add(broadcast(job_.mixes[j * P + i]), inverse_lower[entry(k, i)], value);
+        }
+        follow_[entry(k, j)].part[w] = value * share;
       }
     }
   }
@@ -431,6 +450,7 @@ class TexelSolver {
     subtract_penalty();
     add_solution();
     leave();
+    mix();
   }
 
   // Amplitudes as codes. What rounding one of them adds moves the best values of those that are not rounded
@@ -438,26 +458,23 @@ class TexelSolver {
   HWY_NOINLINE void round(std::size_t at, std::size_t length) {
     const RoundJob& job = *job_.round;
     for (int w = 0; w < kWide; ++w) {
-      V follow[n];
-      covariances(w, follow);
-      condition(follow);
       V goal[P];
-      for (int k = 0; k < job_.lobes; ++k) goal[k] = amplitude(k, w);
-      if (job.noise != nullptr) add_dither(follow, at, length, w, goal);
+      for (int k = 0; k < job_.lobes; ++k) goal[k] = amplitudes_[k].part[w];
+      if (job.noise != nullptr) add_dither(at, length, w, goal);
       for (int k = job_.lobes - 1; k >= 0; --k) {
         const V zero = broadcast(job.zeros[k]);
         const V whole = nearest(goal[k] * broadcast(1.0F / job.steps[k])) + zero;
         const V above = select(whole > V(0.0), whole, V(0.0));
         const V stored = select(above < broadcast(job.top), above, broadcast(job.top));
         codes_[k].part[w] = stored;
-        move_rest(follow, k, (stored - zero) * broadcast(job.steps[k]), goal);
+        move_rest(k, w, (stored - zero) * broadcast(job.steps[k]), goal);
       }
     }
   }
 
   // What noise over the steps leaves when the codes next to it are taken off is spread evenly over the
   // amplitudes of like codes.
-  HWY_INLINE void add_dither(const V* follow, std::size_t at, std::size_t length, int w, V* goal) const {
+  HWY_INLINE void add_dither(std::size_t at, std::size_t length, int w, V* goal) const {
     V spread[P];
     V rest[P];
     for (int k = 0; k < job_.lobes; ++k) {
@@ -467,59 +484,27 @@ class TexelSolver {
     for (int k = job_.lobes - 1; k >= 0; --k) {
       const V step = broadcast(job_.round->steps[k]);
       const V taken = nearest(rest[k] * broadcast(1.0F / job_.round->steps[k])) * step;
-      move_rest(follow, k, taken, rest);
+      move_rest(k, w, taken, rest);
       goal[k] = multiply_add(broadcast(job_.round->dither), spread[k] - taken, goal[k]);
     }
   }
 
   // Lobe k has become `to`: the best values of those before it follow.
-  HWY_INLINE void move_rest(const V* follow, int k, V to, V* goal) const {
+  HWY_INLINE void move_rest(int k, int w, V to, V* goal) const {
     const V moved = to - goal[k];
-    for (int j = 0; j < k; ++j) goal[j] = multiply_add(follow[entry(k, j)], moved, goal[j]);
+    for (int j = 0; j < k; ++j) goal[j] = multiply_add(follow_[entry(k, j)].part[w], moved, goal[j]);
   }
 
-  // Covariances become, per lobe, by how much those before it follow it, all after it being known.
-  HWY_INLINE void condition(V* covariance) const {
-    for (int k = job_.lobes - 1; k > 0; --k) {
-      const V variance = covariance[entry(k, k)];
-      const auto known = variance > V(kTiny);
-      const V share = select(known, V(1.0) / select(known, variance, V(1.0)), V(0.0));
-      for (int j = 0; j < k; ++j) {
-        const V row = covariance[entry(k, j)] * share;
-        for (int i = j; i < k; ++i) {
-          covariance[entry(i, j)] = covariance[entry(i, j)] - covariance[entry(k, i)] * row;
-        }
-      }
-      for (int j = 0; j < k; ++j) covariance[entry(k, j)] = covariance[entry(k, j)] * share;
-    }
-  }
-
-  // Of lobes: mixes times the inverse times mixes turned over.
-  HWY_INLINE void covariances(int w, V* covariance) const {
+  HWY_INLINE void mix() {
     for (int k = 0; k < job_.lobes; ++k) {
-      V row[P];
-      for (int i = 0; i < P; ++i) {
-        V value(0.0);
-        for (int j = 0; j < P; ++j) {
-          const V a = gram_[i >= j ? entry(i, j) : entry(j, i)].part[w];
-          value = multiply_add(broadcast(job_.mixes[k * P + j]), a, value);
+      for (int w = 0; w < kWide; ++w) {
+        V sum(0.0);
+        for (int i = k; i < job_.lobes; ++i) {
+          sum = multiply_add(broadcast(job_.mixes[k * P + i]), unknowns_[i].part[w], sum);
         }
-        row[i] = value;
-      }
-      for (int j = 0; j <= k; ++j) {
-        V value(0.0);
-        for (int i = 0; i < P; ++i) value = multiply_add(broadcast(job_.mixes[j * P + i]), row[i], value);
-        covariance[entry(k, j)] = value;
+        amplitudes_[k].part[w] = sum;
       }
     }
-  }
-
-  HWY_INLINE V amplitude(int lobe, int w) const {
-    V sum(0.0);
-    for (int i = 0; i < P; ++i) {
-      sum = multiply_add(broadcast(job_.mixes[lobe * P + i]), unknowns_[i].part[w], sum);
-    }
-    return sum;
   }
 
   HWY_INLINE V noise(int lobe, std::size_t at, std::size_t length, int w) const {
@@ -630,7 +615,7 @@ class TexelSolver {
     put(job_.confidence);
     for (int k = 0; k < job_.lobes; ++k) {
       for (int w = 0; w < kWide; ++w) {
-        (amplitude(k, w) * keep[w]).store(values + static_cast<std::size_t>(w) * V::size);
+        (amplitudes_[k].part[w] * keep[w]).store(values + static_cast<std::size_t>(w) * V::size);
       }
       put(job_.amplitudes + static_cast<std::size_t>(k) * job_.stride);
       if (job_.round == nullptr) continue;
@@ -657,6 +642,8 @@ class TexelSolver {
   Wide gram_[n];
   Wide right_[P];
   Wide unknowns_[P];
+  Wide amplitudes_[P];
+  Wide follow_[n];  // where there are codes
   Wide codes_[P];
   Wide with_;
   Wide without_;
