@@ -344,56 +344,92 @@ class TexelSolver {
     }
   }
 
-  // gram_ becomes the inverse of itself with the penalty.
+  // gram_ becomes the inverse of itself with the penalty. Vectors take turns: each alone would wait for its
+  // own last result most of the time.
   HWY_NOINLINE void invert() {
-    for (int w = 0; w < kWide; ++w) {
-      V lower[n];
-      V inverse_diagonal[P];
-      for (int j = 0; j < P; ++j) {
-        const V whole = gram_[entry(j, j)].part[w] + broadcast(job_.penalty[entry(j, j)]);
-        V pivot = whole;
-        for (int k = 0; k < j; ++k) pivot = pivot - lower[entry(j, k)] * lower[entry(j, k)];
-        const V least = multiply_add(whole, V(kLeastPivot), V(kTiny));
-        inverse_diagonal[j] = V(1.0) / sqrt(select(pivot > least, pivot, least));
-        for (int i = j + 1; i < P; ++i) {
-          V value = gram_[entry(i, j)].part[w] + broadcast(job_.penalty[entry(i, j)]);
-          for (int k = 0; k < j; ++k) value = value - lower[entry(i, k)] * lower[entry(j, k)];
-          lower[entry(i, j)] = value * inverse_diagonal[j];
-        }
+    Wide lower[n];
+    Wide inverse_diagonal[P];
+    for (int j = 0; j < P; ++j) {
+      Wide column[P];
+      for (int i = j; i < P; ++i) {
+        column[i] = plus(gram_[entry(i, j)], broadcast(job_.penalty[entry(i, j)]));
       }
-      for (int j = 0; j < P; ++j) {  // the triangle's inverse, in place of the triangle
-        lower[entry(j, j)] = inverse_diagonal[j];
-        for (int i = j + 1; i < P; ++i) {
-          V value(0.0);
-          for (int k = j; k < i; ++k) value = multiply_add(lower[entry(i, k)], lower[entry(k, j)], value);
-          lower[entry(i, j)] = V(0.0) - value * inverse_diagonal[i];
-        }
+      const Wide whole = column[j];
+      for (int k = 0; k < j; ++k) {
+        const Wide factor = lower[entry(j, k)];
+        for (int i = j; i < P; ++i) subtract_product(lower[entry(i, k)], factor, column[i]);
       }
-      if (job_.round != nullptr) find_followers(lower, w);
-      for (int i = 0; i < P; ++i) {
-        for (int j = 0; j <= i; ++j) {
-          V value(0.0);
-          for (int k = i; k < P; ++k) value = multiply_add(lower[entry(k, i)], lower[entry(k, j)], value);
-          gram_[entry(i, j)].part[w] = value;
-        }
+      for (int w = 0; w < kWide; ++w) {
+        const V pivot = column[j].part[w];
+        const V least = multiply_add(whole.part[w], V(kLeastPivot), V(kTiny));
+        inverse_diagonal[j].part[w] = V(1.0) / sqrt(select(pivot > least, pivot, least));
+      }
+      for (int i = j + 1; i < P; ++i) lower[entry(i, j)] = product(column[i], inverse_diagonal[j]);
+    }
+    invert_triangle(lower, inverse_diagonal);
+    if (job_.round != nullptr) find_followers(lower);
+    for (int i = 0; i < P; ++i) {
+      for (int j = 0; j <= i; ++j) {
+        Wide value = product(lower[entry(i, i)], lower[entry(i, j)]);
+        for (int k = i + 1; k < P; ++k) add_product(lower[entry(k, i)], lower[entry(k, j)], value);
+        gram_[entry(i, j)] = value;
       }
     }
+  }
+
+  // In place of the triangle, whose diagonal is that of which the inverse is given.
+  static HWY_INLINE void invert_triangle(Wide* lower, const Wide* inverse_diagonal) {
+    for (int j = 0; j < P; ++j) {
+      lower[entry(j, j)] = inverse_diagonal[j];
+      for (int i = j + 1; i < P; ++i) {
+        Wide value = product(lower[entry(i, j)], lower[entry(j, j)]);
+        for (int k = j + 1; k < i; ++k) add_product(lower[entry(i, k)], lower[entry(k, j)], value);
+        for (int w = 0; w < kWide; ++w) value.part[w] = V(0.0) - value.part[w];
+        lower[entry(i, j)] = product(value, inverse_diagonal[i]);
+      }
+    }
+  }
+
+  static HWY_INLINE Wide plus(const Wide& a, V b) {
+    Wide sum;
+    for (int w = 0; w < kWide; ++w) sum.part[w] = a.part[w] + b;
+    return sum;
+  }
+
+  static HWY_INLINE Wide product(const Wide& a, const Wide& b) {
+    Wide value;
+    for (int w = 0; w < kWide; ++w) value.part[w] = a.part[w] * b.part[w];
+    return value;
+  }
+
+  static HWY_INLINE void add_product(const Wide& a, const Wide& b, Wide& sum) {
+    for (int w = 0; w < kWide; ++w) sum.part[w] = multiply_add(a.part[w], b.part[w], sum.part[w]);
+  }
+
+  static HWY_INLINE void subtract_product(const Wide& a, const Wide& b, Wide& sum) {
+    for (int w = 0; w < kWide; ++w) sum.part[w] = sum.part[w] - a.part[w] * b.part[w];
   }
 
   // By how much the best values of lobes before k follow lobe k, all after it being known. Mixes are an upper
   // triangle, and so is their product with the transpose of the Gram matrix's inverse triangle, which is a
   // root of the amplitudes' covariance: its columns are what amplitudes have in common with that of k alone.
-  HWY_INLINE void find_followers(const V* inverse_lower, int w) {
+  HWY_INLINE void find_followers(const Wide* inverse_lower) {
     for (int k = 0; k < job_.lobes; ++k) {
-      const V own = broadcast(job_.mixes[k * P + k]) * inverse_lower[entry(k, k)];
-      const auto known = own * own > V(kTiny);
-      const V share = select(known, V(1.0) / select(known, own, V(1.0)), V(0.0));
+      Wide share;
+      for (int w = 0; w < kWide; ++w) {
+        const V own = broadcast(job_.mixes[k * P + k]) * inverse_lower[entry(k, k)].part[w];
+        const auto known = own * own > V(kTiny);
+        share.part[w] = select(known, V(1.0) / select(known, own, V(1.0)), V(0.0));
+      }
       for (int j = 0; j < k; ++j) {
-        V value(0.0);
+        V sums[kWide] = {V(0.0), V(0.0)};
         for (int i = j; i <= k; ++i) {
-          value = multiply_add(broadcast(job_.mixes[j * P + i]), inverse_lower[entry(k, i)], value);
+          const V mix = broadcast(job_.mixes[j * P + i]);
+          for (int w = 0; w < kWide; ++w) {
+            sums[w] = multiply_add(mix, inverse_lower[entry(k, i)].part[w], sums[w]);
+          }
         }
-        follow_[entry(k, j)].part[w] = value * share;
+        for (int w = 0; w < kWide; ++w) follow_[entry(k, j)].part[w] = sums[w] * share.part[w];
       }
     }
   }
@@ -423,18 +459,31 @@ class TexelSolver {
     }
   }
 
-  // What the unknowns leave of the residual.
+  // What the unknowns leave of the residual. Several lights take turns, so that none waits for its own sum.
   HWY_INLINE void leave() {
-    for (std::size_t l = 0; l < job_.lights; ++l) {
-      V sums[kWide] = {V(0.0), V(0.0)};
-#pragma GCC unroll 16
-      for (int k = 0; k < P; ++k) {
-        for (int w = 0; w < kWide; ++w) sums[w] = multiply_add(basis(l, k, w), unknowns_[k].part[w], sums[w]);
+    constexpr std::size_t turns = 4;
+    static_assert(kLightGroup % turns == 0);
+    Wide unknowns[P];
+    for (int k = 0; k < P; ++k) unknowns[k] = unknowns_[k];
+    for (std::size_t first = 0; first < padded_; first += turns) {
+      V sums[turns][kWide];
+      for (std::size_t g = 0; g < turns; ++g) {
+        for (int w = 0; w < kWide; ++w) sums[g][w] = basis(first + g, 0, w) * unknowns[0].part[w];
       }
-      for (int w = 0; w < kWide; ++w) {
-        const std::size_t at = l * kStep + static_cast<std::size_t>(w) * V::size;
-        const V m = V::load(&modulation_[at]);
-        (V::load(&residual_[at]) - m * sums[w]).store(&left_[at]);
+#pragma GCC unroll 16
+      for (int k = 1; k < P; ++k) {
+        for (std::size_t g = 0; g < turns; ++g) {
+          for (int w = 0; w < kWide; ++w) {
+            sums[g][w] = multiply_add(basis(first + g, k, w), unknowns[k].part[w], sums[g][w]);
+          }
+        }
+      }
+      for (std::size_t g = 0; g < turns; ++g) {
+        for (int w = 0; w < kWide; ++w) {
+          const std::size_t at = (first + g) * kStep + static_cast<std::size_t>(w) * V::size;
+          const V m = V::load(&modulation_[at]);
+          (V::load(&residual_[at]) - m * sums[g][w]).store(&left_[at]);
+        }
       }
     }
   }
@@ -496,12 +545,14 @@ class TexelSolver {
   }
 
   HWY_INLINE void mix() {
+    Wide unknowns[P];
+    for (int i = 0; i < P; ++i) unknowns[i] = unknowns_[i];
     for (int k = 0; k < job_.lobes; ++k) {
+      const float* mix = job_.mixes + k * P;
       for (int w = 0; w < kWide; ++w) {
         V sum(0.0);
-        for (int i = k; i < job_.lobes; ++i) {
-          sum = multiply_add(broadcast(job_.mixes[k * P + i]), unknowns_[i].part[w], sum);
-        }
+#pragma GCC unroll 16
+        for (int i = 0; i < P; ++i) sum = multiply_add(broadcast(mix[i]), unknowns[i].part[w], sum);
         amplitudes_[k].part[w] = sum;
       }
     }
