@@ -137,13 +137,16 @@ struct AssetWriter::State {
 };
 
 AssetWriter::AssetWriter(const RealisAsset& asset, const std::filesystem::path& folder, io::ExrDepth depth,
-                         io::ExrCompression compression)
+                         bool zip)
     : state_(std::make_unique<State>()) {
   State& s = *state_;
   s.asset = asset;
   const RealisFiles& files = asset.files;
   const int width = asset.width;
   const int height = asset.height;
+  const io::ExrCompression compression = zip ? io::ExrCompression::kZip : io::ExrCompression::kNone;
+  // Codes are nearly noise: compressing them takes as long as solving, and saves two bytes of five.
+  const io::PngCompression of_codes = zip ? io::PngCompression::kRuns : io::PngCompression::kNone;
   if (!files.amplitudes.empty()) {
     s.amplitudes.emplace(folder / files.amplitudes, width, height, realis_channel_names(asset), depth,
                          io::ImageMetadata(), compression);
@@ -152,10 +155,10 @@ AssetWriter::AssetWriter(const RealisAsset& asset, const std::filesystem::path& 
     s.chroma.emplace(folder / files.chroma, width, height, kChromaChannels, io::ExrDepth::kHalf,
                      io::ImageMetadata(), compression);
   for (const std::string& name : files.packed) {
-    s.packed.push_back(std::make_unique<io::PngRowWriter>(folder / name, width, height, 4));
+    s.packed.push_back(std::make_unique<io::PngRowWriter>(folder / name, width, height, 4, of_codes));
   }
   if (!files.dominant.empty())
-    s.dominant.emplace(folder / files.dominant, width, height, layout_of(asset).mask_channels());
+    s.dominant.emplace(folder / files.dominant, width, height, layout_of(asset).mask_channels(), of_codes);
   s.surface.emplace(folder / files.surface, width, height, kSurfaceChannels, io::ExrDepth::kFloat,
                     io::ImageMetadata(), compression);
   s.albedo.emplace(folder / files.albedo, width, height, 3);
@@ -165,40 +168,45 @@ AssetWriter::AssetWriter(const RealisAsset& asset, const std::filesystem::path& 
 
 AssetWriter::~AssetWriter() = default;
 
-void AssetWriter::write(const AssetRows& rows, int count) {
+void AssetWriter::write(const AssetRows& rows, int count, CpuMeter& cpu) {
   State& s = *state_;
   const bake::Surface& surface = rows.surface;
   tbb::task_group files;
-  if (s.amplitudes) files.run([&] { s.amplitudes->write(rows.amplitudes, count); });
-  if (s.chroma) files.run([&] { s.chroma->write(rows.chroma, count); });
+  const auto begin = [&](const auto& work) { files.run([&cpu, work] { cpu.measure(work); }); };
+  if (s.amplitudes) begin([&] { s.amplitudes->write(rows.amplitudes, count); });
+  if (s.chroma) begin([&] { s.chroma->write(rows.chroma, count); });
   for (std::size_t k = 0; k < s.packed.size(); ++k) {
-    files.run([&, k] { s.packed[k]->write(rows.packed.textures[k], count); });
+    begin([&s, &rows, count, k] { s.packed[k]->write(rows.packed.textures[k], count); });
   }
-  if (s.dominant) files.run([&] { s.dominant->write(rows.packed.mask, count); });
-  files.run([&] {
+  if (s.dominant) begin([&] { s.dominant->write(rows.packed.mask, count); });
+  begin([&] {
     std::vector<float> planes = surface.albedo;
     planes.insert(planes.end(), surface.normals.begin(), surface.normals.end());
     s.surface->write(planes, count);
   });
-  files.run([&] { s.albedo->write(interleaved(surface.albedo, 3, s.srgb), count); });
-  files.run([&] {
+  begin([&] { s.albedo->write(interleaved(surface.albedo, 3, s.srgb), count); });
+  begin([&] {
     const auto code = [](float n) { return byte_of(0.5F * n + 0.5F); };
     s.normals->write(interleaved(surface.normals, 3, code), count);
   });
-  files.run([&] { s.confidence->write(interleaved(rows.confidence, 1, byte_of), count); });
+  begin([&] { s.confidence->write(interleaved(rows.confidence, 1, byte_of), count); });
   files.wait();
 }
 
 void AssetWriter::commit() {
   State& s = *state_;
-  if (s.amplitudes) s.amplitudes->commit();
-  if (s.chroma) s.chroma->commit();
-  for (const auto& texture : s.packed) texture->commit();
-  if (s.dominant) s.dominant->commit();
-  s.surface->commit();
-  s.albedo->commit();
-  s.normals->commit();
-  s.confidence->commit();
+  // Beside each other, as each waits for the disk.
+  tbb::task_group files;
+  const auto begin = [&](auto& file) { files.run([&file] { file.commit(); }); };
+  if (s.amplitudes) begin(*s.amplitudes);
+  if (s.chroma) begin(*s.chroma);
+  for (const auto& texture : s.packed) begin(*texture);
+  if (s.dominant) begin(*s.dominant);
+  begin(*s.surface);
+  begin(*s.albedo);
+  begin(*s.normals);
+  begin(*s.confidence);
+  files.wait();
 }
 
 std::size_t AssetWriter::cut_values() const {

@@ -10,6 +10,7 @@
 #include "bake/pack.h"
 #include "bake/reconstruct.h"
 #include "brdf/realis_asset.h"
+#include "cli/bake_timings.h"
 #include "io/exr_rows.h"
 
 namespace brdfit::cli {
@@ -32,12 +33,13 @@ std::vector<std::filesystem::path> asset_paths(const RealisAsset& asset, const s
 bake::PackLayout layout_of(const RealisAsset& asset);
 
 // Writes all textures from top to bottom, each file by one thread; they appear under their names at commit().
+// zip: smaller files, for time.
 class AssetWriter {
  public:
-  AssetWriter(const RealisAsset& asset, const std::filesystem::path& folder, io::ExrDepth depth,
-              io::ExrCompression compression);
+  AssetWriter(const RealisAsset& asset, const std::filesystem::path& folder, io::ExrDepth depth, bool zip);
   ~AssetWriter();
-  void write(const AssetRows& rows, int count);
+  // cpu: what it takes is added to it.
+  void write(const AssetRows& rows, int count, CpuMeter& cpu);
   void commit();
   // Amplitudes that a half could not hold.
   std::size_t cut_values() const;

@@ -6,6 +6,7 @@
 #include <csignal>
 #include <filesystem>
 #include <functional>
+#include <memory>
 #include <optional>
 #include <span>
 
@@ -24,6 +25,7 @@
 #include "cli/progress.h"
 #include "cli/threads.h"
 #include "cli/version.h"
+#include "cli/write_behind.h"
 #include "io/realis_json.h"
 #include "io/sha256.h"
 
@@ -34,8 +36,10 @@ namespace {
 constexpr double kStripShare = 0.5;
 // JPEG is decoded by so many rows.
 constexpr int kRowGroup = 16;
-// Bytes per texel of a strip's surface, amplitudes, codes, and what the files are given of them.
-constexpr std::size_t kTexelBytes = 200;
+// Bytes per texel of a strip's surface, amplitudes, codes, and what the files are given of them, which they
+// are while the next strip is made.
+constexpr std::size_t kTexelBytes = 300;
+constexpr const char* kStrip = "strip";
 // Codes at the ends of their range; where ranges are of the asset itself they are few.
 constexpr double kManyCutCodes = 0.05;
 
@@ -321,8 +325,8 @@ class Bake {
     describe_asset();
     for (const std::filesystem::path& file : asset_paths(asset_, a_.output))
       prepare_output(file, a_.common.force);
-    AssetWriter writer(asset_, a_.output, a_.half ? io::ExrDepth::kHalf : io::ExrDepth::kFloat,
-                       a_.zip ? io::ExrCompression::kZip : io::ExrCompression::kNone);
+    AssetWriter writer(asset_, a_.output, a_.half ? io::ExrDepth::kHalf : io::ExrDepth::kFloat, a_.zip);
+    WriteBehind behind;
     short_way_ = bake::has_short_way(stack_.info(), plan_, settings_, asset_.packing);
     const bool luminance = short_way_ && !pictures_ && bake::needs_luminance_alone(stack_.info(), plan_);
     const int strip = strip_rows(luminance);
@@ -331,15 +335,20 @@ class Bake {
     for (const Strip& next : strips) {
       stop_if_interrupted();
       if (next.is_kept) {
+        timings_.timed("write", [&] { behind.wait(); });
         take_over(next, strip, writer);
       } else {
-        make(next, luminance, writer);
+        make(next, luminance, writer, behind);
+        if (a_.stop_after == kStrip) behind.wait();
+        reached(kStrip);
       }
       progress.step("rows");
-      if (!next.is_kept) reached("strip");
     }
-    restart_.keep_outputs_begun();
-    timings_.timed("write", [&] { writer.commit(); });
+    timings_.timed("write", [&] {
+      behind.wait();
+      restart_.keep_outputs_begun();
+      writer.commit();
+    });
     reached("textures");
     cut_values_ = writer.cut_values();
     warn_of_cut_codes();
@@ -367,21 +376,28 @@ class Bake {
     return strips;
   }
 
-  void make(const Strip& strip, bool luminance, AssetWriter& writer) {
+  // What is made of a strip is written and kept while the next is read.
+  void make(const Strip& strip, bool luminance, AssetWriter& writer, WriteBehind& behind) {
     const io::PixelCounts before = stack_.counts();
     const std::size_t cut_before = cut_codes_;
     TexelBlock block = timings_.timed("decode", [&] {
       return luminance ? stack_.read_luminance(strip.first, strip.rows)
                        : stack_.read_rows(strip.first, strip.rows);
     });
-    KeptStrip made;
-    made.rows = timings_.timed("solve", [&] { return rows_of(block); });
+    const auto made = std::make_shared<KeptStrip>();
+    made->rows = timings_.timed("solve", [&] { return rows_of(block); });
     if (pictures_) timings_.timed("pictures", [&] { pictures_->add(block); });
     stack_.give_back(std::move(block));
-    timings_.timed("write", [&] { writer.write(made.rows, strip.rows); });
-    made.pixels = stack_.counts() - before;
-    made.cut_codes = cut_codes_ - cut_before;
-    timings_.timed("keep", [&] { restart_.keep_strip(strip.first, strip.rows, made); });
+    made->pixels = stack_.counts() - before;
+    made->cut_codes = cut_codes_ - cut_before;
+    CpuMeter& writing = timings_.beside("write");
+    CpuMeter& keeping = timings_.beside("keep");
+    timings_.timed("write", [&] {
+      behind.begin([this, &writer, &writing, &keeping, strip, made] {
+        writer.write(made->rows, strip.rows, writing);
+        keeping.measure([&] { restart_.keep_strip(strip.first, strip.rows, *made); });
+      });
+    });
   }
 
   // Pictures are drawn anew, for which the stack is read all the same.
@@ -395,7 +411,7 @@ class Bake {
     }
     timings_.timed("write", [&] {
       const KeptStrip kept = restart_.strip(strip.first);
-      writer.write(kept.rows, strip.rows);
+      writer.write(kept.rows, strip.rows, timings_.beside("write"));
       cut_codes_ += kept.cut_codes;
       if (!pictures_) pixels_taken_over_ += kept.pixels;
     });

@@ -115,7 +115,9 @@ void add_bake_options(CLI::App& app, BakeArguments& a) {
       "--contours", a.contours,
       "texels between the shadow contours of a photograph and of its render count less; costs a pass "
       "over the pictures and a temporary file");
-  app.add_flag("--zip", a.zip, "compress EXR files, which takes longer than the bake and saves little");
+  app.add_flag(
+      "--zip", a.zip,
+      "compress EXR files and the PNG files of codes, which takes longer than the bake and saves little");
   app.add_flag("--timings", a.timings,
                "print the time of each phase in units of decoding alone, and peak memory");
   app.add_flag("--fresh", a.fresh,

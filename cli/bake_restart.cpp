@@ -309,7 +309,7 @@ bool BakeRestart::is_cheap(std::size_t bytes) const {
 void BakeRestart::keep_strip(int row, int rows, const KeptStrip& strip) {
   const std::size_t bytes = KeptRows::bytes_of(strip);
   if (has_failed_ || !is_cheap(bytes)) return;
-  const BothClocks clocks;
+  const BothClocks clocks(CpuOf::kThread);
   try {
     begin();
     if (!rows_) rows_ = std::make_unique<KeptRows>(folder_ / kRows, key_hash_);

@@ -12,9 +12,9 @@
 namespace brdfit::cli {
 namespace {
 
-double cpu_seconds() {
+double cpu_seconds(CpuOf whose) {
   rusage usage{};
-  getrusage(RUSAGE_SELF, &usage);
+  getrusage(whose == CpuOf::kThread ? RUSAGE_THREAD : RUSAGE_SELF, &usage);
   const auto seconds = [](const timeval& t) {
     return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
   };
@@ -27,10 +27,10 @@ double peak_mib() {
 
 }  // namespace
 
-BothClocks::BothClocks() : cpu_start_(cpu_seconds()) {}
+BothClocks::BothClocks(CpuOf whose) : whose_(whose), cpu_start_(cpu_seconds(whose)) {}
 
 TimeTaken BothClocks::taken() const {
-  return {watch_.seconds(), cpu_seconds() - cpu_start_};
+  return {watch_.seconds(), cpu_seconds(whose_) - cpu_start_};
 }
 
 void BakeTimings::measure_decoding(const io::StackSource& source) {
@@ -47,6 +47,25 @@ void BakeTimings::add(const std::string& phase, const TimeTaken& time) {
   found->second.cpu_seconds += time.cpu_seconds;
 }
 
+double BakeTimings::beside_seconds() const {
+  double sum = 0.0;
+  for (const auto& [phase, meter] : beside_) sum += meter.seconds();
+  return sum;
+}
+
+std::vector<std::pair<std::string, TimeTaken>> BakeTimings::phases() const {
+  std::vector<std::pair<std::string, TimeTaken>> whole = phases_;
+  for (const auto& [phase, meter] : beside_) {
+    const auto found = std::ranges::find(whole, phase, [](const auto& known) { return known.first; });
+    if (found != whole.end()) {
+      found->second.cpu_seconds += meter.seconds();
+    } else if (meter.seconds() > 0.0) {
+      whole.emplace_back(phase, TimeTaken{0.0, meter.seconds()});
+    }
+  }
+  return whole;
+}
+
 TimeTaken BakeTimings::decoding() const {
   TimeTaken mean;
   for (const TimeTaken& one : decodings_) {
@@ -58,7 +77,7 @@ TimeTaken BakeTimings::decoding() const {
 
 io::Json BakeTimings::seconds_json() const {
   io::Json json = io::Json::object();
-  for (const auto& [phase, time] : phases_) json[phase] = time.wall_seconds;
+  for (const auto& [phase, time] : phases()) json[phase] = time.wall_seconds;
   json["total"] = total_.wall_seconds;
   return json;
 }
@@ -68,13 +87,13 @@ io::Json BakeTimings::units_json() const {
   const auto in_units = [&](const TimeTaken& time) {
     return io::Json::array({time.wall_seconds / unit.wall_seconds, time.cpu_seconds / unit.cpu_seconds});
   };
-  io::Json phases = io::Json::object();
-  for (const auto& [phase, time] : phases_) phases[phase] = in_units(time);
-  phases["total"] = in_units(total_);
+  io::Json in_each = io::Json::object();
+  for (const auto& [phase, time] : phases()) in_each[phase] = in_units(time);
+  in_each["total"] = in_units(total_);
   return {{"decoding_seconds", unit.wall_seconds},
           {"decoding_cpu_seconds", unit.cpu_seconds},
           {"peak_memory_mib", peak_mib()},
-          {"phases", phases}};
+          {"phases", in_each}};
 }
 
 std::string BakeTimings::text() const {
@@ -87,7 +106,7 @@ std::string BakeTimings::text() const {
                    time.cpu_seconds / unit.cpu_seconds);
   };
   row("decoding alone", unit);
-  for (const auto& [phase, time] : phases_) row(phase, time);
+  for (const auto& [phase, time] : phases()) row(phase, time);
   row("all", total_);
   fmt::format_to(std::back_inserter(out), "peak memory {:.0f} MiB\n", peak_mib());
   return out;

@@ -2,6 +2,9 @@
 #ifndef BRDFIT_CLI_BAKE_TIMINGS_H_
 #define BRDFIT_CLI_BAKE_TIMINGS_H_
 
+#include <atomic>
+#include <cstdint>
+#include <map>
 #include <string>
 #include <type_traits>
 #include <utility>
@@ -20,15 +23,34 @@ struct TimeTaken {
   double cpu_seconds = 0.0;
 };
 
+enum class CpuOf { kProcess, kThread };  // the thread that asks
+
 // Starts when it is made.
 class BothClocks {
  public:
-  BothClocks();
+  explicit BothClocks(CpuOf whose = CpuOf::kProcess);
   TimeTaken taken() const;
 
  private:
+  CpuOf whose_;
   Stopwatch watch_;
   double cpu_start_;
+};
+
+// CPU time of work beside the phases. Several threads may add to it, each what it took itself.
+class CpuMeter {
+ public:
+  // work: of this thread alone.
+  template <class Work>
+  void measure(const Work& work) {
+    const BothClocks clocks(CpuOf::kThread);
+    work();
+    nanoseconds_ += static_cast<std::int64_t>(1e9 * clocks.taken().cpu_seconds);
+  }
+  double seconds() const { return 1e-9 * static_cast<double>(nanoseconds_.load()); }
+
+ private:
+  std::atomic<std::int64_t> nanoseconds_{0};
 };
 
 class BakeTimings {
@@ -39,16 +61,26 @@ class BakeTimings {
   void add(const std::string& phase, const TimeTaken& time);
   void set_total(const TimeTaken& time) { total_ = time; }
 
+  // For work of a phase that goes on while others do: its CPU time is the phase's and not theirs. Called
+  // before that work begins; stays where it is.
+  CpuMeter& beside(const std::string& phase) { return beside_[phase]; }
+
   // What `work` gives, its time added to a phase.
   template <class Work>
   auto timed(const std::string& phase, const Work& work) {
     const BothClocks clocks;
+    const double before = beside_seconds();
+    const auto end = [&] {
+      TimeTaken time = clocks.taken();
+      time.cpu_seconds -= beside_seconds() - before;
+      add(phase, time);
+    };
     if constexpr (std::is_void_v<decltype(work())>) {
       work();
-      add(phase, clocks.taken());
+      end();
     } else {
       auto result = work();
-      add(phase, clocks.taken());
+      end();
       return result;
     }
   }
@@ -63,8 +95,11 @@ class BakeTimings {
 
  private:
   TimeTaken decoding() const;
+  double beside_seconds() const;
+  std::vector<std::pair<std::string, TimeTaken>> phases() const;
 
-  std::vector<std::pair<std::string, TimeTaken>> phases_;
+  std::vector<std::pair<std::string, TimeTaken>> phases_;  // without what went on beside others
+  std::map<std::string, CpuMeter> beside_;
   std::vector<TimeTaken> decodings_;
   TimeTaken total_;
 };

@@ -45,13 +45,15 @@ void write_bytes_of(png_structp png, png_bytep data, png_size_t size) {
 }
 
 // libpng jumps here from its errors, so nothing in these functions needs a destructor.
-bool begin(png_structp png, png_infop info, int width, int height, int colour_type) {
+bool begin(png_structp png, png_infop info, int width, int height, int colour_type,
+           PngCompression compression) {
   if (setjmp(png_jmpbuf(png)) != 0) return false;
   png_set_IHDR(png, info, static_cast<png_uint_32>(width), static_cast<png_uint_32>(height), 8, colour_type,
                PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
   // Codes are noise to any longer search than for runs; differences to the left are small where they are not.
-  png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_SUB);
-  png_set_compression_level(png, 1);
+  const bool is_plain = compression == PngCompression::kNone;
+  png_set_filter(png, PNG_FILTER_TYPE_BASE, is_plain ? PNG_FILTER_NONE : PNG_FILTER_SUB);
+  png_set_compression_level(png, is_plain ? 0 : 1);
   png_set_compression_strategy(png, Z_RLE);
   png_write_info(png, info);
   return true;
@@ -78,7 +80,8 @@ void require(bool good, const State& state) {
 
 }  // namespace
 
-PngRowWriter::PngRowWriter(const std::filesystem::path& file, int width, int height, int channels) {
+PngRowWriter::PngRowWriter(const std::filesystem::path& file, int width, int height, int channels,
+                           PngCompression compression) {
   if (width <= 0 || height <= 0 || (channels != 1 && channels != 3 && channels != 4)) {
     throw std::invalid_argument("PNG: sizes must be positive, with 1, 3 or 4 channels");
   }
@@ -93,7 +96,7 @@ PngRowWriter::PngRowWriter(const std::filesystem::path& file, int width, int hei
                           : channels == 3 ? PNG_COLOR_TYPE_RGB
                                           : PNG_COLOR_TYPE_RGB_ALPHA;
   if (s.info != nullptr) png_set_write_fn(s.png, &s, write_bytes_of<State>, nullptr);
-  require(s.info != nullptr && begin(s.png, s.info, width, height, colour_type), s);
+  require(s.info != nullptr && begin(s.png, s.info, width, height, colour_type, compression), s);
 }
 
 PngRowWriter::~PngRowWriter() = default;
