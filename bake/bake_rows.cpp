@@ -46,25 +46,6 @@ void check(const StackInfo& info, const TexelBlock& block) {
   if (!fits) throw std::invalid_argument("bake_rows: sizes disagree");
 }
 
-NoiseOf noise_of(const TexelBlock& block, std::size_t lobes, int width) {
-  return [&block, lobes, width](std::size_t first, std::size_t count, std::vector<float>& noise) {
-    noise.resize(lobes * count);
-    const auto wide = static_cast<std::uint32_t>(width);
-    std::vector<std::uint32_t> x(count);
-    std::vector<std::uint32_t> y(count);
-    for (std::size_t k = 0; k < count; ++k) {
-      y[k] = block.texels[first + k] / wide;
-      x[k] = block.texels[first + k] - y[k] * wide;
-    }
-    for (std::size_t lobe = 0; lobe < lobes; ++lobe) {
-      float* to = noise.data() + lobe * count;
-      for (std::size_t k = 0; k < count; ++k) {
-        to[k] = static_cast<float>(dither_threshold(x[k], y[k], static_cast<int>(lobe)));
-      }
-    }
-  };
-}
-
 }  // namespace
 
 bool has_short_way(const StackInfo& info, const BakePlan& plan, const BakeSettings& settings,
@@ -182,8 +163,10 @@ BakedRows bake_rows(const StackInfo& whole, const TexelBlock& block, const BakeP
   round.dither = static_cast<float>(kDitherStrength);
   round.top = static_cast<float>(kTop);
   round.stored = baked.stored.data();
+  if (dither) round.texels = block.texels.data();
+  round.asset_width = static_cast<std::uint32_t>(info.width);
   job.round = &round;
-  solve_parallel(job, options.isa, dither ? noise_of(block, lobes, info.width) : NoiseOf());
+  solve_parallel(job, options.isa);
   return baked;
 }
 

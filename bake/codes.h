@@ -83,18 +83,6 @@ inline constexpr double kDitherStrength = 0.7;
 std::vector<int> quantise(const TexelEquations& equations, const Quantiser& quantiser, std::uint32_t mask,
                           std::span<const double> noise, int steps, double strength = kDitherStrength);
 
-// A number in [-0.5, 0.5) for a texel and a lobe: neighbours differ, so that what rounding takes away at one
-// is given at the next. Interleaved gradient noise (Jimenez 2014), shifted from lobe to lobe.
-inline double dither_threshold(std::uint32_t x, std::uint32_t y, int lobe) {
-  // Nothing here is negative or beyond 2^31, so cutting is rounding down, and loops of this become vector
-  // code.
-  const auto down = [](double value) { return static_cast<double>(static_cast<std::int32_t>(value)); };
-  const double shifted = static_cast<double>(x) + 5.588238 * lobe;
-  const double inner = 0.06711056 * shifted + 0.00583715 * static_cast<double>(y);
-  const double noise = 52.9829189 * (inner - down(inner));
-  return noise - down(noise) - 0.5;
-}
-
 }  // namespace brdfit::bake
 
 #endif  // BRDFIT_BAKE_CODES_H_

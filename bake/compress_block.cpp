@@ -8,6 +8,8 @@
 #include <bit>
 #include <stdexcept>
 
+#include "bake/dither.h"
+
 namespace brdfit::bake {
 namespace {
 

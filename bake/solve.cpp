@@ -169,25 +169,15 @@ std::vector<double> lobe_numbers(const LobeSet& lobes) {
   return numbers;
 }
 
-void solve_parallel(const SolveJob& job, simd::Isa isa, const NoiseOf& noise_of) {
+void solve_parallel(const SolveJob& job, simd::Isa isa) {
   const SolveFunction run = solve_function(isa);
   tbb::parallel_for(tbb::blocked_range<std::size_t>(0, job.stride, kGrain), [&](const auto& range) {
     const std::size_t planes = 3 + (job.near != nullptr ? static_cast<std::size_t>(job.width) : 0);
     std::vector<float> scratch(planes * kMostTexelsAtOnce * (job.lights + kLightGroup));
-    std::vector<float> noise;
     SolveJob part = job;
     part.first = range.begin();
     part.count = range.size();
     part.scratch = scratch.data();
-    RoundJob round;
-    if (job.round != nullptr) {
-      round = *job.round;
-      if (noise_of) {
-        noise_of(part.first, part.count, noise);
-        round.noise = noise.data();
-      }
-      part.round = &round;
-    }
     run(part);
   });
 }

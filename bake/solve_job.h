@@ -40,9 +40,10 @@ struct NearLights {
 // Amplitudes to stored codes, each rounded at its best value given those that are rounded already; as
 // bake/codes.h has it for codes of 8 bits.
 struct RoundJob {
-  const float* steps = nullptr;    // [lobe]: amplitude of one code, > 0
-  const float* zeros = nullptr;    // [lobe]: how 0 is stored
-  const float* noise = nullptr;    // [lobe][texel of the job], in [-0.5, 0.5); null: no dither
+  const float* steps = nullptr;           // [lobe]: amplitude of one code, > 0
+  const float* zeros = nullptr;           // [lobe]: how 0 is stored
+  const std::uint32_t* texels = nullptr;  // [texel], as amplitudes: which of the asset's; null: no dither
+  std::uint32_t asset_width = 1;
   float dither = 0.0F;             // strength of dither
   float top = 255.0F;              // the largest number that is stored
   std::uint8_t* stored = nullptr;  // [lobe][texel], as amplitudes

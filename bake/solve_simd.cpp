@@ -4,6 +4,7 @@
 // modulations: the work is that of small matrix products, in registers. Sums are single precision; unknowns
 // are mixes of lobes that are orthonormal on average, and one step of refinement on the residual takes the
 // solution to where single precision of the residual itself ends.
+#include "bake/dither.h"
 #include "bake/solve_job.h"
 #include "brdf/kernel/spherical_gaussian.h"
 #include "brdf/simd/lanes.h"
@@ -16,6 +17,7 @@ using bake::RoundJob;
 using bake::ShadeSource;
 using bake::SolveJob;
 using V = Lanes<float>;
+using D = Lanes<double>;
 
 constexpr int kWide = 2;  // vectors of texels that share each broadcast value
 constexpr std::size_t kStep = kWide * V::size;
@@ -64,7 +66,7 @@ class TexelSolver {
       }
       invert();
       solve();
-      if (job_.round != nullptr) round(at, length);
+      if (job_.round != nullptr) round(job_.first + at, length);
       errors();
       store(job_.first + at, length);
     }
@@ -256,7 +258,6 @@ class TexelSolver {
   }
 
   HWY_NOINLINE static void lobe_values(const double* lobe, const float* direction, float* values) {
-    using D = Lanes<double>;
     const typename D::Tag wide;
     const hn::Rebind<float, typename D::Tag> narrow;
     for (std::size_t at = 0; at < kStep; at += D::size) {
@@ -504,12 +505,13 @@ class TexelSolver {
 
   // Amplitudes as codes. What rounding one of them adds moves the best values of those that are not rounded
   // yet by their covariance with it. From the last lobe on.
-  HWY_NOINLINE void round(std::size_t at, std::size_t length) {
+  HWY_NOINLINE void round(std::size_t first, std::size_t length) {
     const RoundJob& job = *job_.round;
+    if (job.texels != nullptr) find_places(first, length);
     for (int w = 0; w < kWide; ++w) {
       V goal[P];
       for (int k = 0; k < job_.lobes; ++k) goal[k] = amplitudes_[k].part[w];
-      if (job.noise != nullptr) add_dither(at, length, w, goal);
+      if (job.texels != nullptr) add_dither(w, goal);
       for (int k = job_.lobes - 1; k >= 0; --k) {
         const V zero = broadcast(job.zeros[k]);
         const V whole = nearest(goal[k] * broadcast(1.0F / job.steps[k])) + zero;
@@ -523,11 +525,11 @@ class TexelSolver {
 
   // What noise over the steps leaves when the codes next to it are taken off is spread evenly over the
   // amplitudes of like codes.
-  HWY_INLINE void add_dither(std::size_t at, std::size_t length, int w, V* goal) const {
+  HWY_INLINE void add_dither(int w, V* goal) const {
     V spread[P];
     V rest[P];
     for (int k = 0; k < job_.lobes; ++k) {
-      spread[k] = noise(k, at, length, w) * broadcast(job_.round->steps[k]);
+      spread[k] = noise(k, w) * broadcast(job_.round->steps[k]);
       rest[k] = spread[k];
     }
     for (int k = job_.lobes - 1; k >= 0; --k) {
@@ -558,13 +560,38 @@ class TexelSolver {
     }
   }
 
-  HWY_INLINE V noise(int lobe, std::size_t at, std::size_t length, int w) const {
-    const float* from = job_.round->noise + static_cast<std::size_t>(lobe) * job_.count + at;
-    const std::size_t first = static_cast<std::size_t>(w) * V::size;
-    if (first + V::size <= length) return V::load(from + first);
-    alignas(64) float some[V::size] = {};
-    for (std::size_t k = first; k < length; ++k) some[k - first] = from[k];
-    return V::load(some);
+  // Columns and rows of texels in the asset. Most follow each other, and dividing is slow.
+  HWY_INLINE void find_places(std::size_t first, std::size_t length) {
+    const std::uint32_t width = job_.round->asset_width;
+    std::uint32_t x = 0;
+    std::uint32_t y = 0;
+    for (std::size_t k = 0; k < kStep; ++k) {
+      const std::uint32_t texel = job_.round->texels[first + (k < length ? k : length - 1)];
+      const bool follows = k > 0 && k < length && texel == job_.round->texels[first + k - 1] + 1;
+      if (!follows) {
+        y = texel / width;
+        x = texel - y * width;
+      } else if (++x == width) {
+        x = 0;
+        ++y;
+      }
+      column_[k] = x;
+      row_[k] = y;
+    }
+  }
+
+  // As bake::dither_threshold, in double precision: its fractions are those of large numbers.
+  HWY_INLINE V noise(int lobe, int w) const {
+    const hn::Rebind<float, typename D::Tag> narrow;
+    alignas(64) float noise[V::size];
+    for (std::size_t at = 0; at < V::size; at += D::size) {
+      const std::size_t texel = static_cast<std::size_t>(w) * V::size + at;
+      const D value =
+          bake::interleaved_gradient_noise(D::load(column_ + texel) + D(bake::kDitherShift * lobe),
+                                           D::load(row_ + texel), [](D x) { return D::of(hn::Floor(x.v)); });
+      hn::StoreU(hn::DemoteTo(narrow, (value - D(0.5)).v), narrow, noise + at);
+    }
+    return V::load(noise);
   }
 
   HWY_INLINE V nearest(V x) const {
@@ -696,6 +723,8 @@ class TexelSolver {
   Wide amplitudes_[P];
   Wide follow_[n];  // where there are codes
   Wide codes_[P];
+  alignas(64) double column_[kStep];  // of texels, where there is dither
+  alignas(64) double row_[kStep];
   Wide with_;
   Wide without_;
 };

@@ -9,6 +9,7 @@
 #include <cmath>
 #include <vector>
 
+#include "bake/dither.h"
 #include "tests/lobe_equations.h"
 
 namespace brdfit::bake {
