@@ -146,7 +146,7 @@ AssetWriter::AssetWriter(const RealisAsset& asset, const std::filesystem::path& 
   const int height = asset.height;
   const io::ExrCompression compression = zip ? io::ExrCompression::kZip : io::ExrCompression::kNone;
   // Codes are nearly noise: compressing them takes as long as solving, and saves two bytes of five.
-  const io::PngCompression of_codes = zip ? io::PngCompression::kRuns : io::PngCompression::kNone;
+  const io::PngCompression of_codes = zip ? io::PngCompression::kQuick : io::PngCompression::kNone;
   if (!files.amplitudes.empty()) {
     s.amplitudes.emplace(folder / files.amplitudes, width, height, realis_channel_names(asset), depth,
                          io::ImageMetadata(), compression);

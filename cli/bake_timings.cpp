@@ -2,9 +2,9 @@
 #include "cli/bake_timings.h"
 
 #include <fmt/format.h>
-#include <sys/resource.h>
 
 #include <algorithm>
+#include <ctime>
 #include <iterator>
 
 #include "io/decode_floor.h"
@@ -12,13 +12,11 @@
 namespace brdfit::cli {
 namespace {
 
+// The clocks and not getrusage, which knows no more than the last tick of the scheduler.
 double cpu_seconds(CpuOf whose) {
-  rusage usage{};
-  getrusage(whose == CpuOf::kThread ? RUSAGE_THREAD : RUSAGE_SELF, &usage);
-  const auto seconds = [](const timeval& t) {
-    return static_cast<double>(t.tv_sec) + 1e-6 * static_cast<double>(t.tv_usec);
-  };
-  return seconds(usage.ru_utime) + seconds(usage.ru_stime);
+  timespec now{};
+  clock_gettime(whose == CpuOf::kThread ? CLOCK_THREAD_CPUTIME_ID : CLOCK_PROCESS_CPUTIME_ID, &now);
+  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
 }
 
 double peak_mib() {
@@ -43,8 +41,7 @@ void BakeTimings::add(const std::string& phase, const TimeTaken& time) {
   auto found =
       std::find_if(phases_.begin(), phases_.end(), [&](const auto& known) { return known.first == phase; });
   if (found == phases_.end()) found = phases_.insert(phases_.end(), {phase, {}});
-  found->second.wall_seconds += time.wall_seconds;
-  found->second.cpu_seconds += time.cpu_seconds;
+  found->second = found->second + time;
 }
 
 double BakeTimings::beside_seconds() const {

@@ -23,6 +23,10 @@ struct TimeTaken {
   double cpu_seconds = 0.0;
 };
 
+inline TimeTaken operator+(const TimeTaken& a, const TimeTaken& b) {
+  return {a.wall_seconds + b.wall_seconds, a.cpu_seconds + b.cpu_seconds};
+}
+
 enum class CpuOf { kProcess, kThread };  // the thread that asks
 
 // Starts when it is made.

@@ -25,21 +25,40 @@ namespace {
 
 constexpr float kLargestHalf = 65504.0F;
 
-// Where OpenEXR writes to: it goes back to fill in where rows lie.
+// Where OpenEXR writes to: it goes back to fill in where rows lie. A row comes in four pieces, of which the
+// small ones are gathered.
 class AtomicStream : public Imf::OStream {
  public:
   explicit AtomicStream(const std::filesystem::path& file) : Imf::OStream(file.c_str()), file_(file) {}
   void write(const char data[], int size) override {
-    file_.write_at(place_, std::as_bytes(std::span(data, static_cast<std::size_t>(size))));
-    place_ += static_cast<std::uint64_t>(size);
+    const auto bytes = std::as_bytes(std::span(data, static_cast<std::size_t>(size)));
+    if (bytes.size() < kSmall) {
+      gathered_.insert(gathered_.end(), bytes.begin(), bytes.end());
+    } else {
+      flush();
+      file_.write_at(place_, bytes);
+    }
+    place_ += bytes.size();
   }
   std::uint64_t tellp() override { return place_; }
-  void seekp(std::uint64_t place) override { place_ = place; }
-  void commit() { file_.commit(); }
+  void seekp(std::uint64_t place) override {
+    flush();
+    place_ = place;
+  }
+  void flush() {
+    file_.write_at(place_ - gathered_.size(), gathered_);
+    gathered_.clear();
+  }
+  void commit() {
+    flush();
+    file_.commit();
+  }
 
  private:
+  static constexpr std::size_t kSmall = 4096;
   AtomicFile file_;
   std::uint64_t place_ = 0;
+  std::vector<std::byte> gathered_;
 };
 
 void check(int width, int height, const std::vector<std::string>& channels) {

@@ -88,6 +88,10 @@ std::string name_of(SampleType type) {
   return "float";
 }
 
+void load_image_module() {
+  static_cast<void>(plugin());
+}
+
 ImageReader::ImageReader(const fs::path& file) : name_(file.string()) {
   // For its messages: OpenImageIO's own differ from format to format.
   const InputFile check(file, "an image");

@@ -37,6 +37,10 @@ struct ImageHeader {
   std::size_t row_bytes() const { return row_samples() * bytes_of(type); }
 };
 
+// Loads the module now, for whoever measures time: else the first image does. Throws IoError (kInput): it is
+// missing.
+void load_image_module();
+
 // An open image. Rows are numbered from the top; samples are interleaved. Reading from top to bottom decodes
 // the file once; a step back may decode it again from the beginning. One thread at a time.
 class ImageReader {

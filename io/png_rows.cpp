@@ -50,11 +50,10 @@ bool begin(png_structp png, png_infop info, int width, int height, int colour_ty
   if (setjmp(png_jmpbuf(png)) != 0) return false;
   png_set_IHDR(png, info, static_cast<png_uint_32>(width), static_cast<png_uint_32>(height), 8, colour_type,
                PNG_INTERLACE_NONE, PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
-  // Codes are noise to any longer search than for runs; differences to the left are small where they are not.
   const bool is_plain = compression == PngCompression::kNone;
-  png_set_filter(png, PNG_FILTER_TYPE_BASE, is_plain ? PNG_FILTER_NONE : PNG_FILTER_SUB);
+  png_set_filter(png, PNG_FILTER_TYPE_BASE, is_plain ? PNG_FILTER_NONE : PNG_FILTER_UP);
   png_set_compression_level(png, is_plain ? 0 : 1);
-  png_set_compression_strategy(png, Z_RLE);
+  png_set_compression_strategy(png, Z_HUFFMAN_ONLY);
   png_write_info(png, info);
   return true;
 }

@@ -12,15 +12,15 @@
 
 namespace brdfit::io {
 
-// kRuns: differences to the left in Huffman codes, which is quick where there is something to gain.
-enum class PngCompression { kRuns, kNone };
+// kQuick: differences to the row above in Huffman codes; a longer search finds little more in data.
+enum class PngCompression { kQuick, kNone };
 
 // Writes 8-bit samples from top to bottom through a temporary that commit() renames.
 class PngRowWriter {
  public:
   // channels: 1, 3 or 4. Throws IoError (kOutput), std::invalid_argument for sizes that cannot be.
   PngRowWriter(const std::filesystem::path& file, int width, int height, int channels,
-               PngCompression compression = PngCompression::kRuns);
+               PngCompression compression = PngCompression::kQuick);
   ~PngRowWriter();
 
   // The next rows, interleaved. Throws IoError (kOutput), std::invalid_argument for too many rows.
