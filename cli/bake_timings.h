@@ -89,6 +89,8 @@ class BakeTimings {
     }
   }
 
+  // In the order in which they were first met; those that only went on beside others last.
+  std::vector<std::pair<std::string, TimeTaken>> phases() const;
   // {phase: wall seconds}, with "total".
   io::Json seconds_json() const;
   // {"decoding_seconds", "decoding_cpu_seconds", "peak_memory_mib", "phases": {phase: [wall, CPU] in units of
@@ -100,7 +102,6 @@ class BakeTimings {
  private:
   TimeTaken decoding() const;
   double beside_seconds() const;
-  std::vector<std::pair<std::string, TimeTaken>> phases() const;
 
   std::vector<std::pair<std::string, TimeTaken>> phases_;  // without what went on beside others
   std::map<std::string, CpuMeter> beside_;

@@ -108,12 +108,37 @@ TEST_F(Rows, AMissingChannelOrADamagedFileIsNamed) {
   EXPECT_THROW(ExrRowReader(file, {"Y"}).read(0, kHeight), IoError);
 }
 
-TEST_F(Rows, PngRowsAreExact) {
+TEST_F(Rows, WideRowsReachTheFileWhole) {
+  // Rows go to the file as they are, what is between them is gathered.
+  constexpr int kWide = 3000;
+  for (const ExrCompression compression : {ExrCompression::kNone, ExrCompression::kZip}) {
+    const auto file = folder_.path() / "wide.exr";
+    std::vector<float> values(std::size_t{2} * kWide * 5);
+    for (std::size_t k = 0; k < values.size(); ++k) values[k] = std::sin(0.1F * static_cast<float>(k));
+    ExrRowWriter writer(file, kWide, 5, {"A", "B"}, ExrDepth::kFloat, {}, compression);
+    writer.write(values, 5);
+    writer.commit();
+    EXPECT_EQ(ExrRowReader(file, {"A", "B"}).read(0, 5), values);
+  }
+}
+
+class PngRows : public testing::TestWithParam<PngCompression> {
+ protected:
+  TempFolder folder_;
+};
+
+INSTANTIATE_TEST_SUITE_P(Compressions, PngRows,
+                         testing::Values(PngCompression::kQuick, PngCompression::kNone),
+                         [](const auto& which) {
+                           return which.param == PngCompression::kNone ? "None" : "Quick";
+                         });
+
+TEST_P(PngRows, AreExact) {
   for (const int channels : {1, 3, 4}) {
     const auto file = folder_.path() / ("codes" + std::to_string(channels) + ".png");
     std::vector<std::uint8_t> samples(static_cast<std::size_t>(kWidth * kHeight * channels));
     for (std::size_t k = 0; k < samples.size(); ++k) samples[k] = static_cast<std::uint8_t>(37 * k + 11);
-    PngRowWriter writer(file, kWidth, kHeight, channels);
+    PngRowWriter writer(file, kWidth, kHeight, channels, GetParam());
     const std::size_t top = static_cast<std::size_t>(kWidth * 2 * channels);
     writer.write(std::span(samples).first(top), 2);
     writer.write(std::span(samples).subspan(top), kHeight - 2);
