@@ -70,14 +70,13 @@ namespace {
 // What a job reads, and where it lies. Filled in once, in place.
 struct Source {
   ShadeSource shade;
-  std::vector<float> render;
-  std::vector<float> residual;
+  std::vector<float>& residual;
   LightTables lights;
   TexelProblem problem;  // of near lights: each texel sees them elsewhere
   std::vector<double> lobes;
   NearLights near;
 
-  explicit Source(const StackInfo& info) : lights(info) {}
+  Source(const StackInfo& info, std::vector<float>& room) : residual(room), lights(info) {}
   Source(const Source&) = delete;
   Source& operator=(const Source&) = delete;
 
@@ -89,19 +88,15 @@ struct Source {
     Surface surface;
     if (block.channels == 1) {
       surface = given_surface(block);
-    } else if (base.material && block.albedo.empty()) {
-      ColouredSurface coloured =
-          base_colour_and_residual(info, block, photometric_stereo(info, block, all), all, base);
-      surface = std::move(coloured.surface);
-      residual = std::move(coloured.residual);
+    } else if (base.material) {
+      surface =
+          base_colour_and_residual(info, block, photometric_stereo(info, block, all), all, base, residual);
       shade.values = residual.data();
       shade.channels = 1;
       shade.is_residual = true;
     } else {
       surface = photometric_stereo(info, block, all);
-      if (base.material) render = render_block(info, block, surface, all, base);
     }
-    shade.render = render.empty() ? nullptr : render.data();
     shade.direction = lights.direction.data();
     shade.colour = lights.colour.data();
     for (std::size_t c = 0; c < 3; ++c) shade.mix[c] = static_cast<float>(kLuminance[c]);
@@ -137,11 +132,13 @@ struct Source {
 }  // namespace
 
 BakedRows bake_rows(const StackInfo& whole, const TexelBlock& block, const BakePlan& plan,
-                    const BakeSettings& settings, const RealisPacking& packing, bool dither) {
+                    const BakeSettings& settings, const RealisPacking& packing, bool dither,
+                    std::vector<float>* room) {
   const StackInfo info = with_gains(whole, plan.gains);
   check(info, block);
   BakedRows baked;
-  Source source(info);
+  std::vector<float> own;
+  Source source(info, room != nullptr ? *room : own);
   baked.surface = has_near_lights(info)
                       ? source.prepare_near(info, block, plan, settings.albedo_in_modulation)
                       : source.prepare(info, block, plan.base, settings.albedo_in_modulation);

@@ -29,10 +29,12 @@ struct BakedRows {
 std::size_t cut_codes(const BakedRows& rows);
 
 // As bake_block and compress_block together, to single precision. block: of colours, or of luminance where
-// that is enough. dither: whether rounding is dithered. Identical for any number of threads and however the
+// that is enough. dither: whether rounding is dithered. room: memory to work in, for the next call to find as
+// it was left. Identical for any number of threads and however the
 // asset is cut into blocks. Throws std::invalid_argument where sizes disagree.
 BakedRows bake_rows(const StackInfo& info, const TexelBlock& block, const BakePlan& plan,
-                    const BakeSettings& settings, const RealisPacking& packing, bool dither);
+                    const BakeSettings& settings, const RealisPacking& packing, bool dither,
+                    std::vector<float>* room = nullptr);
 
 }  // namespace brdfit::bake
 

@@ -128,7 +128,7 @@ void render_block(const StackInfo& info, const TexelBlock& block, const Surface&
 
 namespace {
 
-// Base colours into surface.albedo; residuals too where there is room for them.
+// Base colours into surface.albedo, where the block gives none; residuals too where there is room for them.
 void solve_base_colours(const StackInfo& info, const TexelBlock& block, const LightChoice& lights,
                         const BaseModel& model, Surface& surface, std::span<float> residual) {
   const std::size_t texels = block.count();
@@ -153,6 +153,8 @@ void solve_base_colours(const StackInfo& info, const TexelBlock& block, const Li
       job.values = chunk_values(block, lights, first, padded);
       job.robust_width = static_cast<float>(model.robust_width);
       job.base_colour = base_colour.data();
+      job.is_given = !block.albedo.empty();
+      if (job.is_given) copy_chunk(surface.albedo, texels, first, base_colour.data());
       for (std::size_t c = 0; c < 3; ++c) job.mix[c] = static_cast<float>(kLuminance[c]);
       const bool is_whole = first + kChunk <= texels;
       if (!residual.empty()) {
@@ -161,7 +163,7 @@ void solve_base_colours(const StackInfo& info, const TexelBlock& block, const Li
         job.residual_stride = is_whole ? texels : kChunk;
       }
       run(job);
-      store_chunk(base_colour.data(), 3, texels, first, surface.albedo);
+      if (!job.is_given) store_chunk(base_colour.data(), 3, texels, first, surface.albedo);
       if (!residual.empty() && !is_whole) store_chunk(last.data(), lights.size(), texels, first, residual);
     }
   });
@@ -178,15 +180,14 @@ Surface with_base_colour(const StackInfo& info, const TexelBlock& block, const S
   return result;
 }
 
-ColouredSurface base_colour_and_residual(const StackInfo& info, const TexelBlock& block, Surface surface,
-                                         const LightChoice& lights, const BaseModel& model) {
+Surface base_colour_and_residual(const StackInfo& info, const TexelBlock& block, Surface surface,
+                                 const LightChoice& lights, const BaseModel& model,
+                                 std::vector<float>& residual) {
   check(info, block, surface, lights, model);
-  if (!model.material || !block.albedo.empty()) {
-    throw std::invalid_argument("base model: there is no base colour to solve");
-  }
-  ColouredSurface result{std::move(surface), std::vector<float>(lights.size() * block.count())};
-  solve_base_colours(info, block, lights, model, result.surface, result.residual);
-  return result;
+  if (!model.material) throw std::invalid_argument("base model: Lambert has no base colour to solve");
+  residual.resize(lights.size() * block.count());
+  solve_base_colours(info, block, lights, model, surface, residual);
+  return surface;
 }
 
 }  // namespace brdfit::bake

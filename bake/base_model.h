@@ -39,14 +39,11 @@ void render_block(const StackInfo& info, const TexelBlock& block, const Surface&
 Surface with_base_colour(const StackInfo& info, const TexelBlock& block, const Surface& surface,
                          const LightChoice& lights, const BaseModel& model);
 
-// The same with what the render leaves of the values' luminance, which costs little beside: [light][texel],
-// lights in the order given. For a material, where the block has no albedo.
-struct ColouredSurface {
-  Surface surface;
-  std::vector<float> residual;
-};
-ColouredSurface base_colour_and_residual(const StackInfo& info, const TexelBlock& block, Surface surface,
-                                         const LightChoice& lights, const BaseModel& model);
+// The same with what the render leaves of the values' luminance, which costs little beside: into `residual`,
+// [light][texel], lights in the order given; it is made as large as that takes. For a material.
+Surface base_colour_and_residual(const StackInfo& info, const TexelBlock& block, Surface surface,
+                                 const LightChoice& lights, const BaseModel& model,
+                                 std::vector<float>& residual);
 
 // Whether the model's value is affine in its base colour: all are, but Burley's with a tint in use.
 bool is_affine(const Material& material);

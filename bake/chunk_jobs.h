@@ -87,6 +87,7 @@ struct BaseColourJob {
   ValueColumns values;
   float robust_width = 0.0F;
   float* base_colour = nullptr;  // [3][kChunk]
+  bool is_given = false;         // base_colour is not solved but read
   // What the render of these base colours leaves of the values' luminance, [light] residual_stride apart;
   // null: not asked for.
   float* residual = nullptr;

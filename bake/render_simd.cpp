@@ -246,7 +246,7 @@ void render_chunk(const RenderJob& job) {
 
 void base_colour_chunk(const BaseColourJob& job) {
   affine_any(job.affine);
-  solve_base_colour(job);
+  if (!job.is_given) solve_base_colour(job);
   if (job.residual != nullptr) leave_luminance(job);
 }
 

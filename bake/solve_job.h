@@ -21,8 +21,8 @@ inline constexpr std::size_t kMostTexelsAtOnce = 32;
 struct ShadeSource {
   const float* values = nullptr;      // [light][channel][texel]
   std::size_t channels = 3;           // of values: 3, or 1 where they are luminances
-  bool is_residual = false;           // values are what a render leaves of luminance
-  const float* render = nullptr;      // [light][3][texel]; null: Lambert's, of the albedo
+  bool is_residual = false;           // values are what a render leaves of luminance; else Lambert is taken
+                                      // from them
   const float* normals = nullptr;     // [3][texel]
   const float* albedo = nullptr;      // [3][texel]
   const float* direction = nullptr;   // [light][3]

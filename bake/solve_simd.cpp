@@ -107,7 +107,6 @@ class TexelSolver {
   // A source's planes from a texel on, of one light where it has several.
   struct Planes {
     const float* values;
-    const float* render;
     const float* weight;
     std::size_t stride;
   };
@@ -142,8 +141,8 @@ class TexelSolver {
         const std::size_t at = w * V::size;
         shade_light(
             l, at, facts[w],
-            {values + at, s.render == nullptr ? nullptr : s.render + 3 * l * job_.stride + first + at,
-             job_.weight == nullptr ? nullptr : job_.weight + l * job_.stride + first + at, job_.stride});
+            {values + at, job_.weight == nullptr ? nullptr : job_.weight + l * job_.stride + first + at,
+             job_.stride});
       }
     }
   }
@@ -158,7 +157,6 @@ class TexelSolver {
     float normals[3 * kStep];
     float albedo[3 * kStep];
     float values[3 * kStep];
-    float render[3 * kStep];
     float weight[kStep];
     const auto copy = [&](const float* from, std::size_t rows, float* to) {
       for (std::size_t row = 0; row < rows; ++row) {
@@ -171,12 +169,10 @@ class TexelSolver {
     copy(s.albedo, 3, albedo);
     for (std::size_t l = 0; l < job_.lights; ++l) {
       copy(s.values + l * s.channels * job_.stride, s.channels, values);
-      if (s.render != nullptr) copy(s.render + 3 * l * job_.stride, 3, render);
       if (job_.weight != nullptr) copy(job_.weight + l * job_.stride, 1, weight);
       for (std::size_t w = 0; w < kStep; w += V::size) {
         shade_light(l, w, facts_at(normals + w, albedo + w, kStep),
-                    {values + w, s.render == nullptr ? nullptr : render + w,
-                     job_.weight == nullptr ? nullptr : weight + w, kStep});
+                    {values + w, job_.weight == nullptr ? nullptr : weight + w, kStep});
       }
     }
   }
@@ -190,8 +186,7 @@ class TexelSolver {
     const V modulation =
         shade * (s.albedo_in_modulation ? reflected : broadcast(colour[0] + colour[1] + colour[2]));
     const V value = s.channels == 1 ? V::load(from.values) : luminance(from.values, from.stride);
-    const V render = from.render == nullptr ? shade * reflected : luminance(from.render, from.stride);
-    const V residual = s.is_residual ? value : value - render;
+    const V residual = s.is_residual ? value : value - shade * reflected;
     const auto finite = abs(residual) + modulation < V(kLargest);
     V used_residual = select(finite, residual, V(0.0));
     V used_modulation = select(finite, modulation, V(0.0));

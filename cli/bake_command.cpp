@@ -33,13 +33,14 @@
 namespace brdfit::cli {
 namespace {
 
-// Strips, with all that is made of them, take this share of --memory.
-constexpr double kStripShare = 0.5;
+// Strips, with all that is made of them, take this share of --memory; libraries and decoders take 100 to 140
+// MiB.
+constexpr double kStripShare = 0.4;
 // JPEG is decoded by so many rows.
 constexpr int kRowGroup = 16;
 // Bytes per texel of a strip's surface, amplitudes, codes, and what the files are given of them, which they
 // are while the next strip is made.
-constexpr std::size_t kTexelBytes = 300;
+constexpr std::size_t kTexelBytes = 200;
 constexpr const char* kStrip = "strip";
 // Codes at the ends of their range; where ranges are of the asset itself they are few.
 constexpr double kManyCutCodes = 0.05;
@@ -260,7 +261,7 @@ class Bake {
     AssetRows rows;
     if (short_way_) {
       bake::BakedRows baked =
-          bake::bake_rows(stack_.info(), block, plan_, settings_, asset_.packing, !a_.no_dither);
+          bake::bake_rows(stack_.info(), block, plan_, settings_, asset_.packing, !a_.no_dither, &room_);
       cut_codes_ += bake::cut_codes(baked);
       rows.packed = bake::pack_all(layout_of(asset_), baked.stored);
       rows.amplitudes = std::move(baked.solved.amplitudes);
@@ -309,12 +310,12 @@ class Bake {
   // Rows of a strip whose pixels, and what is made of them, fit into memory.
   int strip_rows(bool luminance) const {
     const StackInfo& info = stack_.info();
-    // Per light: values, weight; and a render, or (the long way) render, residual, modulation and a copy; and
-    // directions, where they are each texel's own.
+    // Per light: values, weight; and a residual, or (the long way) render, residual, modulation and a copy;
+    // and directions, where they are each texel's own.
     const bool is_near = has_near_lights(info);
     const bool is_short = short_way_ && !is_near;
     const std::size_t planes = (luminance  ? 2
-                                : is_short ? (plan_.base.material ? 7 : 4)
+                                : is_short ? (plan_.base.material ? 5 : 4)
                                            : 14) +
                                (is_near ? 3 : 0);
     const std::size_t texel = planes * sizeof(float) * info.lights.size() + kTexelBytes;
@@ -487,6 +488,7 @@ class Bake {
   bake::Evidence evidence_;
   std::optional<BakePictures> pictures_;
   bool short_way_ = false;
+  std::vector<float> room_;  // that strips work in
   std::size_t cut_values_ = 0;
   std::size_t cut_codes_ = 0;
   io::PixelCounts pixels_taken_over_;
