@@ -112,6 +112,13 @@ class Bake {
     if (interrupted()) throw std::runtime_error("interrupted; " + restart_.how_to_go_on());
   }
 
+  // What is still being written is kept first.
+  void stop_if_interrupted(WriteBehind& behind) const {
+    if (!interrupted()) return;
+    behind.wait();
+    stop_if_interrupted();
+  }
+
   // A phase is done, and kept.
   void reached(const std::string& phase) const {
     if (a_.stop_after == phase) std::raise(SIGINT);
@@ -337,14 +344,14 @@ class Bake {
     const std::vector<Strip> strips = strips_of(strip);
     Progress progress(strips.size(), a_.common.quiet || a_.common.json);
     for (const Strip& next : strips) {
-      stop_if_interrupted();
+      stop_if_interrupted(behind);
       if (next.is_kept) {
         timings_.timed("write", [&] { behind.wait(); });
         take_over(next, strip, writer);
       } else {
         make(next, luminance, writer, behind);
-        if (a_.stop_after == kStrip) behind.wait();
-        reached(kStrip);
+        if (a_.stop_after == kStrip) std::raise(SIGINT);
+        stop_if_interrupted(behind);
       }
       progress.step("rows");
     }
