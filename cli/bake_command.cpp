@@ -10,10 +10,9 @@
 #include <optional>
 #include <span>
 
-#include "bake/bake_rows.h"
 #include "bake/capture_warnings.h"
-#include "bake/compress_block.h"
 #include "cli/asset_files.h"
+#include "cli/asset_rows.h"
 #include "cli/bake_evidence.h"
 #include "cli/bake_key.h"
 #include "cli/bake_options.h"
@@ -38,9 +37,6 @@ namespace {
 constexpr double kStripShare = 0.4;
 // JPEG is decoded by so many rows.
 constexpr int kRowGroup = 16;
-// Bytes per texel of a strip's surface, amplitudes, codes, and what the files are given of them, which they
-// are while the next strip is made.
-constexpr std::size_t kTexelBytes = 200;
 constexpr const char* kStrip = "strip";
 // Codes at the ends of their range; where ranges are of the asset itself they are few.
 constexpr double kManyCutCodes = 0.05;
@@ -84,7 +80,8 @@ class Bake {
                  bake_key(parser, a, source), a.fresh),
         reads_sample_(needs_sample_ && !is_past_sample()),
         stack_(a, reads_sample_),
-        opening_(since_beginning_.taken()) {
+        opening_(since_beginning_.taken()),
+        maker_(stack_.info(), plan_, settings_, asset_, !a.no_dither) {
     timings_.add("open", opening_);
     asset_.name = name_of(a, source);
     settings_.check = [this] { stop_if_interrupted(); };
@@ -218,117 +215,24 @@ class Bake {
     }
     asset_.packing.bits = a_.bits;
     asset_.packing.dominant = dominant_of(a_, static_cast<int>(asset_.lobes.size()));
-    asset_.packing.ranges = ranges();
+    asset_.packing.ranges = ranges_of_codes();
     if (ranges_.empty() && !restart_.ranges()) restart_.keep_ranges(asset_.packing.ranges);
     name_asset_files(asset_);
   }
 
-  // Planes of all problems of a block, [lobe][channel][texel].
-  static std::vector<float> planes_of(const std::vector<std::vector<float>>& channels, std::size_t lobes,
-                                      std::size_t count) {
-    std::vector<float> planes;
-    planes.reserve(channels.size() * lobes * count);
-    for (std::size_t lobe = 0; lobe < lobes; ++lobe) {
-      for (const std::vector<float>& channel : channels) {
-        const auto from = channel.begin() + static_cast<std::ptrdiff_t>(lobe * count);
-        planes.insert(planes.end(), from, from + static_cast<std::ptrdiff_t>(count));
-      }
-    }
-    return planes;
+  // That came with the lobes, were kept, or are found.
+  std::vector<RealisRange> ranges_of_codes() const {
+    if (plan_.system && !ranges_.empty()) return ranges_;
+    if (plan_.system && restart_.ranges()) return *restart_.ranges();
+    return maker_.ranges(sample_);
   }
 
-  bake::CompressOptions compress_options() const { return {a_.bits, asset_.packing.dominant, !a_.no_dither}; }
-
-  // The lobes that the channels of each texel keep together; empty where there is one channel, or all are
-  // kept.
-  std::vector<std::uint32_t> shared_masks(const bake::BakedBlock& baked) const {
-    const int dominant = asset_.packing.dominant;
-    if (baked.solved.size() < 2 || static_cast<std::size_t>(dominant) == asset_.lobes.size()) return {};
-    return bake::dominant_masks(*plan_.system, baked.problems, baked.solved, dominant);
-  }
-
-  // Of planes, [lobe][channel].
-  std::vector<RealisRange> ranges() const {
-    std::vector<RealisRange> planes(asset_.plane_count());
-    if (!plan_.system) return planes;
-    if (!ranges_.empty()) return ranges_;
-    if (restart_.ranges()) return *restart_.ranges();
-    const bake::BakedBlock baked = bake::bake_block(stack_.info(), sample_, plan_, settings_);
-    const std::size_t channels = baked.solved.size();
-    const std::vector<std::uint32_t> shared = shared_masks(baked);
-    for (std::size_t c = 0; c < channels; ++c) {
-      const std::vector<RealisRange> lobes = bake::code_ranges(
-          *plan_.system, baked.problems[c], baked.solved[c].amplitudes, compress_options(), shared);
-      for (std::size_t k = 0; k < lobes.size(); ++k) planes[k * channels + c] = lobes[k];
-    }
-    return planes;
-  }
-
-  AssetRows rows_of(const TexelBlock& block) {
-    AssetRows rows;
-    if (short_way_) {
-      bake::BakedRows baked =
-          bake::bake_rows(stack_.info(), block, plan_, settings_, asset_.packing, !a_.no_dither, &room_);
-      cut_codes_ += bake::cut_codes(baked);
-      rows.packed = bake::pack_all(layout_of(asset_), baked.stored);
-      rows.amplitudes = std::move(baked.solved.amplitudes);
-      rows.confidence = std::move(baked.solved.confidence);
-      rows.surface = std::move(baked.surface);
-      return rows;
-    }
-    bake::BakedBlock baked = bake::bake_block(stack_.info(), block, plan_, settings_);
-    rows.confidence.assign(block.count(), 0.0F);
-    if (plan_.system) compress(baked, block, rows);
-    rows.chroma = std::move(baked.chroma);
-    rows.surface = std::move(baked.surface);
-    return rows;
-  }
-
-  void compress(const bake::BakedBlock& baked, const TexelBlock& block, AssetRows& rows) const {
-    const std::size_t lobes = asset_.lobes.size();
-    const std::size_t channels = baked.solved.size();
-    std::vector<std::vector<float>> amplitudes;
-    std::vector<int> codes(asset_.plane_count() * block.count(), 0);
-    std::vector<std::uint32_t> masks(block.count(), 0);
-    const std::vector<std::uint32_t> shared = shared_masks(baked);
-    for (std::size_t c = 0; c < channels; ++c) {
-      const bake::SolveResult& solved = baked.solved[c];
-      std::vector<RealisRange> ranges;
-      for (std::size_t lobe = 0; lobe < lobes; ++lobe) {
-        ranges.push_back(asset_.packing.ranges[lobe * channels + c]);
-      }
-      const bake::Compressed small =
-          bake::compress_block(*plan_.system, baked.problems[c], solved.amplitudes, block.texels,
-                               asset_.width, ranges, compress_options(), shared);
-      for (std::size_t lobe = 0; lobe < lobes; ++lobe) {
-        std::copy_n(small.codes.begin() + static_cast<std::ptrdiff_t>(lobe * block.count()), block.count(),
-                    codes.begin() + static_cast<std::ptrdiff_t>((lobe * channels + c) * block.count()));
-      }
-      for (std::size_t k = 0; k < block.count(); ++k) {
-        masks[k] |= small.masks[k];
-        rows.confidence[k] = std::max(rows.confidence[k], solved.confidence[k]);
-      }
-      amplitudes.push_back(solved.amplitudes);
-    }
-    rows.packed = bake::pack(layout_of(asset_), codes, masks);
-    rows.amplitudes = planes_of(amplitudes, lobes, block.count());
-  }
-
-  // Rows of a strip whose pixels, and what is made of them, fit into memory.
+  // Rows of a strip that fit into memory with what is made of them.
   int strip_rows(bool luminance) const {
     const StackInfo& info = stack_.info();
-    // Per light: values, weight; and a residual, or (the long way) render, residual, modulation and a copy;
-    // and directions, where they are each texel's own.
-    const bool is_near = has_near_lights(info);
-    const bool is_short = short_way_ && !is_near;
-    const std::size_t planes = (luminance  ? 2
-                                : is_short ? (plan_.base.material ? 5 : 4)
-                                           : 14) +
-                               (is_near ? 3 : 0);
-    const std::size_t texel = planes * sizeof(float) * info.lights.size() + kTexelBytes;
     const double bytes = kStripShare * static_cast<double>(static_cast<std::size_t>(a_.memory_mib) << 20);
-    const int rows =
-        static_cast<int>(bytes / static_cast<double>(texel * static_cast<std::size_t>(info.width)));
+    const int rows = static_cast<int>(bytes / static_cast<double>(maker_.texel_bytes(luminance)) /
+                                      static_cast<double>(info.width));
     return std::clamp(rows > kRowGroup ? rows / kRowGroup * kRowGroup : rows, 1, info.height);
   }
 
@@ -338,8 +242,7 @@ class Bake {
       prepare_output(file, a_.common.force);
     AssetWriter writer(asset_, a_.output, a_.half ? io::ExrDepth::kHalf : io::ExrDepth::kFloat, a_.zip);
     WriteBehind behind;
-    short_way_ = bake::has_short_way(stack_.info(), plan_, settings_, asset_.packing);
-    const bool luminance = short_way_ && !pictures_ && bake::needs_luminance_alone(stack_.info(), plan_);
+    const bool luminance = !pictures_ && maker_.needs_luminance_alone();
     const int strip = strip_rows(luminance);
     const std::vector<Strip> strips = strips_of(strip);
     Progress progress(strips.size(), a_.common.quiet || a_.common.json);
@@ -390,17 +293,18 @@ class Bake {
   // What is made of a strip is written and kept while the next is read.
   void make(const Strip& strip, bool luminance, AssetWriter& writer, WriteBehind& behind) {
     const io::PixelCounts before = stack_.counts();
-    const std::size_t cut_before = cut_codes_;
     TexelBlock block = timings_.timed("decode", [&] {
       return luminance ? stack_.read_luminance(strip.first, strip.rows)
                        : stack_.read_rows(strip.first, strip.rows);
     });
     const auto made = std::make_shared<KeptStrip>();
-    made->rows = timings_.timed("solve", [&] { return rows_of(block); });
+    AssetRowsMaker::Made rows = timings_.timed("solve", [&] { return maker_.rows_of(block); });
+    made->rows = std::move(rows.rows);
+    made->cut_codes = rows.cut_codes;
+    cut_codes_ += rows.cut_codes;
     if (pictures_) timings_.timed("pictures", [&] { pictures_->add(block); });
     stack_.give_back(std::move(block));
     made->pixels = stack_.counts() - before;
-    made->cut_codes = cut_codes_ - cut_before;
     CpuMeter& writing = timings_.beside("write");
     CpuMeter& keeping = timings_.beside("keep");
     timings_.timed("write", [&] {
@@ -492,10 +396,9 @@ class Bake {
   RealisAsset asset_;
   TexelBlock sample_;
   bake::BakePlan plan_;
+  AssetRowsMaker maker_;
   bake::Evidence evidence_;
   std::optional<BakePictures> pictures_;
-  bool short_way_ = false;
-  std::vector<float> room_;  // that strips work in
   std::size_t cut_values_ = 0;
   std::size_t cut_codes_ = 0;
   io::PixelCounts pixels_taken_over_;
