@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numeric>
 #include <stdexcept>
+#include <utility>
 
 namespace brdfit::bake {
 namespace {
@@ -97,6 +98,8 @@ TexelBlock ShrunkStack::strip(int first_row, int rows) {
   out.texels.resize(squares.count());
   std::iota(out.texels.begin(), out.texels.end(),
             static_cast<std::uint32_t>(first_row) * static_cast<std::uint32_t>(info_.width));
+  out.rgb.reserve(block.lights * block.channels * squares.count());
+  out.weight.reserve(block.weight.empty() ? 0 : block.lights * squares.count());
   for (std::size_t light = 0; light < block.lights; ++light) {
     const float* weight = block.weight.empty() ? nullptr : block.weight.data() + light * count;
     for (std::size_t c = 0; c < block.channels; ++c)
@@ -131,7 +134,8 @@ TexelBlock ShrunkStack::read_rows(int first_row, int rows) {
 
 TexelBlock ShrunkStack::read_texels(std::span<const std::uint32_t> texels) {
   const auto width = static_cast<std::size_t>(info_.width);
-  TexelBlock out;
+  TexelBlock out = std::exchange(given_back_, {});
+  for (std::vector<float>* planes : {&out.rgb, &out.weight, &out.normals, &out.albedo}) planes->clear();
   out.texels.assign(texels.begin(), texels.end());
   const auto copy = [&](const std::vector<float>& from, std::size_t planes, std::vector<float>& to,
                         const TexelBlock& block, std::size_t begin, std::size_t end) {
@@ -155,6 +159,8 @@ TexelBlock ShrunkStack::read_texels(std::span<const std::uint32_t> texels) {
     out.lights = block.lights;
     out.channels = block.channels;
     copy(block.rgb, block.lights * block.channels, out.rgb, block, begin, end);
+    // Strips without weights count in full, whatever others have.
+    if (!block.weight.empty() && out.weight.empty()) out.weight.assign(block.lights * texels.size(), 1.0F);
     copy(block.weight, block.lights, out.weight, block, begin, end);
     copy(block.normals, 3, out.normals, block, begin, end);
     copy(block.albedo, 3, out.albedo, block, begin, end);

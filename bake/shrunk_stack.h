@@ -25,6 +25,7 @@ class ShrunkStack : public ImageStack {
   TexelBlock read_rows(int first_row, int rows) override;
   // In one pass over the pictures.
   TexelBlock read_texels(std::span<const std::uint32_t> texels) override;
+  void give_back(TexelBlock block) override { given_back_ = std::move(block); }
 
  private:
   TexelBlock strip(int first_row, int rows);
@@ -34,6 +35,7 @@ class ShrunkStack : public ImageStack {
   int shrink_;
   std::size_t memory_bytes_;
   StackInfo info_;
+  TexelBlock given_back_;
 };
 
 // Where a texel of the whole picture lies among those of the shrunk one: the four around it and their shares,

@@ -43,15 +43,17 @@ bool AssetRowsMaker::needs_luminance_alone() const {
 }
 
 std::size_t AssetRowsMaker::texel_bytes(bool luminance) const {
-  // Per light: values, weight; and a residual, or (the long way) render, residual, modulation and a copy; and
-  // directions, where they are each texel's own.
+  return planes_per_light(luminance) * sizeof(float) * info_.lights.size() + kMadeBytes;
+}
+
+// Values, weight; and a residual, or (the long way) render, residual, modulation and a copy, of colours three
+// times; and directions, where they are each texel's own.
+std::size_t AssetRowsMaker::planes_per_light(bool luminance) const {
   const bool is_near = has_near_lights(info_);
-  const bool is_short = has_short_way() && !is_near;
-  const std::size_t planes = (luminance  ? 2
-                              : is_short ? (plan_.base.material ? 5 : 4)
-                                         : 14) +
-                             (is_near ? 3 : 0);
-  return planes * sizeof(float) * info_.lights.size() + kMadeBytes;
+  const std::size_t directions = is_near ? 3 : 0;
+  if (luminance) return 2;
+  if (has_short_way() && !is_near) return plan_.base.material ? 5 : 4;
+  return directions + (settings_.colour == RealisColour::kRgb ? 22 : 14);
 }
 
 bake::CompressOptions AssetRowsMaker::compress_options() const {

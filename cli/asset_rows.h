@@ -38,6 +38,7 @@ class AssetRowsMaker {
 
  private:
   bool has_short_way() const;
+  std::size_t planes_per_light(bool luminance) const;
   bake::CompressOptions compress_options() const;
   std::vector<std::uint32_t> shared_masks(const bake::BakedBlock& baked) const;
   void compress(const bake::BakedBlock& baked, const TexelBlock& block, AssetRows& rows) const;

@@ -230,7 +230,8 @@ class Bake {
   // Rows of a strip that fit into memory with what is made of them.
   int strip_rows(bool luminance) const {
     const StackInfo& info = stack_.info();
-    const double bytes = kStripShare * static_cast<double>(static_cast<std::size_t>(a_.memory_mib) << 20);
+    const double bytes = kStripShare * static_cast<double>(static_cast<std::size_t>(a_.memory_mib) << 20) -
+                         static_cast<double>(memory_beside_strips(a_));
     const int rows = static_cast<int>(bytes / static_cast<double>(maker_.texel_bytes(luminance)) /
                                       static_cast<double>(info.width));
     return std::clamp(rows > kRowGroup ? rows / kRowGroup * kRowGroup : rows, 1, info.height);

@@ -20,6 +20,14 @@ std::size_t memory_bytes(const BakeArguments& a) {
   return static_cast<std::size_t>(a.memory_mib) << 20;
 }
 
+}  // namespace
+
+std::size_t memory_beside_strips(const BakeArguments& a) {
+  return a.shrink > 1 ? memory_bytes(a) / 8 : 0;
+}
+
+namespace {
+
 io::FileStack open_files(const BakeArguments& a, bool several_passes) {
   io::FileStackOptions options;
   if (!a.transfer.empty()) {
@@ -55,7 +63,7 @@ BakeStack::BakeStack(const BakeArguments& a, bool several_passes)
     : files_(open_files(a, several_passes || a.contours)), weighted_(files_) {
   weigh_by_noise(a);
   if (a.contours) weigh_by_contours(a);
-  if (a.shrink > 1) shrunk_.emplace(weighted_, a.shrink, memory_bytes(a) / 2);
+  if (a.shrink > 1) shrunk_.emplace(weighted_, a.shrink, memory_beside_strips(a));
 }
 
 void BakeStack::weigh_by_noise(const BakeArguments& a) {
@@ -77,7 +85,7 @@ void BakeStack::weigh_by_contours(const BakeArguments& a) {
       io::FrameSize{info().width, info().height, source.pictures.front().file.filename().string()});
   ContourPassOptions options;
   options.strip_rows = std::max(1, strip_rows());
-  options.memory_bytes = memory_bytes(a) / 2;
+  options.memory_bytes = memory_bytes(a) / 3;
   options.step = [] {
     if (interrupted()) throw std::runtime_error("interrupted; nothing is written");
   };

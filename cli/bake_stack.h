@@ -18,6 +18,9 @@
 
 namespace brdfit::cli {
 
+// What the stack takes of --memory beside the strips that are asked of it.
+std::size_t memory_beside_strips(const BakeArguments& a);
+
 class BakeStack : public ImageStack {
  public:
   // Opens the files, and with --contours reads them once. several_passes: whether they will be read more than

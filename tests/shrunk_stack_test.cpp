@@ -3,8 +3,12 @@
 
 #include <gmock/gmock.h>
 
+#include <algorithm>
 #include <numeric>
+#include <span>
 #include <stdexcept>
+#include <utility>
+#include <vector>
 
 namespace brdfit::bake {
 namespace {
@@ -89,6 +93,55 @@ TEST(ShrunkStack, TexelsAreThoseOfTheRowsHoweverLittleMemoryThereIs) {
 }
 
 // A near light must see the squares where they are.
+// As files are read: a block has weights only where some value of it cannot be used.
+class SparselyWeighted : public ImageStack {
+ public:
+  explicit SparselyWeighted(MemoryStack whole) : whole_(std::move(whole)) {}
+  const StackInfo& info() const override { return whole_.info(); }
+  TexelBlock read_rows(int first_row, int rows) override { return sparse(whole_.read_rows(first_row, rows)); }
+  TexelBlock read_texels(std::span<const std::uint32_t> texels) override {
+    return sparse(whole_.read_texels(texels));
+  }
+
+ private:
+  static TexelBlock sparse(TexelBlock block) {
+    if (std::ranges::all_of(block.weight, [](float w) { return w == 1.0F; })) block.weight.clear();
+    return block;
+  }
+  MemoryStack whole_;
+};
+
+TEST(ShrunkStack, StripsWithoutWeightsCountInFullBesideOthers) {
+  MemoryStack numbers = numbered(6, 12, false);
+  TexelBlock block = numbers.read_rows(0, 12);
+  block.weight.assign(2 * block.count(), 1.0F);
+  for (std::size_t k = 6 * 4; k < 6 * 6; ++k) block.weight[k] = 0.0F;  // two rows of the first light
+  SparselyWeighted whole({numbers.info(), block});
+  ShrunkStack at_once(whole, 2);
+  ShrunkStack in_strips(whole, 2, 1);
+  std::vector<std::uint32_t> texels(at_once.info().texel_count());
+  std::iota(texels.begin(), texels.end(), 0U);
+  const TexelBlock expected = at_once.read_texels(texels);
+  const TexelBlock found = in_strips.read_texels(texels);
+  ASSERT_EQ(expected.weight_of(0, 0), 1.0F);
+  ASSERT_EQ(expected.weight_of(0, 6), 0.0F);
+  EXPECT_EQ(found.weight, expected.weight);
+  EXPECT_EQ(found.rgb, expected.rgb);
+}
+
+TEST(ShrunkStack, TakesMemoryThatIsGivenBack) {
+  MemoryStack whole = numbered(6, 12, true);
+  ShrunkStack half(whole, 2);
+  const std::vector<std::uint32_t> texels = {0, 4, 17};
+  const TexelBlock first = half.read_texels(texels);
+  TexelBlock other = half.read_rows(0, 6);
+  half.give_back(std::move(other));
+  const TexelBlock again = half.read_texels(texels);
+  EXPECT_EQ(again.texels, first.texels);
+  EXPECT_EQ(again.rgb, first.rgb);
+  EXPECT_EQ(again.weight, first.weight);
+}
+
 TEST(ShrunkStack, CentresOfSquaresLieInTheMiddleOfTheirTexels) {
   StackInfo info;
   info.width = info.height = 8;
