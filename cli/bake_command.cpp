@@ -34,7 +34,7 @@ namespace {
 
 // Strips, with all that is made of them, take this share of --memory; libraries and decoders take 100 to 140
 // MiB.
-constexpr double kStripShare = 0.4;
+constexpr double kStripShare = 0.36;
 // JPEG is decoded by so many rows.
 constexpr int kRowGroup = 16;
 constexpr const char* kStrip = "strip";

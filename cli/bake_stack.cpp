@@ -23,7 +23,7 @@ std::size_t memory_bytes(const BakeArguments& a) {
 }  // namespace
 
 std::size_t memory_beside_strips(const BakeArguments& a) {
-  return a.shrink > 1 ? memory_bytes(a) / 8 : 0;
+  return (a.shrink > 1 || a.contours ? 1 : 0) * memory_bytes(a) / 8;
 }
 
 namespace {
@@ -63,7 +63,7 @@ BakeStack::BakeStack(const BakeArguments& a, bool several_passes)
     : files_(open_files(a, several_passes || a.contours)), weighted_(files_) {
   weigh_by_noise(a);
   if (a.contours) weigh_by_contours(a);
-  if (a.shrink > 1) shrunk_.emplace(weighted_, a.shrink, memory_beside_strips(a));
+  if (a.shrink > 1) shrunk_.emplace(weighted_, a.shrink, memory_beside_strips(a) / 2);
 }
 
 void BakeStack::weigh_by_noise(const BakeArguments& a) {
