@@ -4,11 +4,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <cmath>
 #include <map>
+#include <optional>
 #include <utility>
 
 #include "bake/baselines.h"
+#include "bake/channel_errors.h"
+#include "bake/kept_amplitudes.h"
 #include "bake/luminance.h"
 
 namespace brdfit::bake {
@@ -34,99 +36,38 @@ Targets targets_of(const StackInfo& info, const TexelBlock& sample, const BakePl
   return targets;
 }
 
-// Squares of errors, per light.
-class Tally {
- public:
-  explicit Tally(std::size_t lights) : sum_(lights), count_(lights) {}
-
-  MethodSums sums(std::string name) const { return {std::move(name), sum_, count_, lit_sum_, lit_count_}; }
-
-  void add(const MethodSums& sums) {
-    for (std::size_t light = 0; light < sum_.size(); ++light) {
-      sum_[light] += sums.squares.at(light);
-      count_[light] += sums.counts.at(light);
-    }
-    lit_sum_ += sums.lit_squares;
-    lit_count_ += sums.lit_count;
-  }
-
-  void add(const Targets& targets, const TexelProblem& problem, std::span<const float> shade,
-           std::span<const float> errors) {
-    for (std::size_t t = 0; t < targets.lights.size(); ++t) {
-      for (std::size_t k = 0; k < problem.texels; ++k) {
-        const std::size_t at = problem.at(t, k);
-        if (problem.weight_of(t, k) == 0.0F) continue;
-        const double squared = std::pow(static_cast<double>(errors[at]), 2);
-        sum_[targets.lights[t]] += squared;
-        count_[targets.lights[t]] += 1.0;
-        if (shade[at] > 0.0F) {
-          lit_sum_ += squared;
-          lit_count_ += 1.0;
-        }
-      }
-    }
-  }
-
-  StackErrors errors() const {
-    StackErrors out;
-    double sum = 0.0;
-    double count = 0.0;
-    for (std::size_t light = 0; light < sum_.size(); ++light) {
-      sum += sum_[light];
-      count += count_[light];
-      const double rmse = root_mean(sum_[light], count_[light]);
-      out.per_light_255.push_back(rmse);
-      if (rmse > out.worst_light_rmse_255) {
-        out.worst_light_rmse_255 = rmse;
-        out.worst_light = light;
-      }
-    }
-    out.rmse_255 = root_mean(sum, count);
-    out.lit_rmse_255 = root_mean(lit_sum_, lit_count_);
-    // Without any error a peak's ratio to it has no number: as that of the smallest error a float can show.
-    out.psnr_db = 20.0 * std::log10(255.0 / std::max(out.rmse_255, 255.0 * 0x1p-24));
-    return out;
-  }
-
- private:
-  static double root_mean(double sum, double count) {
-    return count > 0.0 ? 255.0 * std::sqrt(sum / count) : 0.0;
-  }
-
-  std::vector<double> sum_;
-  std::vector<double> count_;
-  double lit_sum_ = 0.0;
-  double lit_count_ = 0.0;
-};
+// The sums of one method; of channels where they are asked for.
+MethodSums empty_sums(const std::string& name, std::size_t lights, bool coloured) {
+  MethodSums sums{name, ErrorSums::of_lights(lights), {}};
+  if (coloured) sums.rgb = ErrorSums::of_lights(lights);
+  return sums;
+}
 
 // The methods of one evaluation, in the order in which they were first met.
 class Tallies {
  public:
-  explicit Tallies(std::size_t lights) : lights_(lights) {}
-  Tally& operator[](const MethodEvidence& method) {
+  Tallies(std::size_t lights, bool coloured) : lights_(lights), coloured_(coloured) {}
+  MethodSums& operator[](const MethodEvidence& method) {
     const auto found = place_.find(method.name);
-    if (found != place_.end()) return tallies_[found->second];
-    place_[method.name] = tallies_.size();
+    if (found != place_.end()) return sums_[found->second];
+    place_[method.name] = sums_.size();
     methods_.push_back(method);
-    tallies_.emplace_back(lights_);
-    return tallies_.back();
+    sums_.push_back(empty_sums(method.name, lights_, coloured_));
+    return sums_.back();
   }
   const std::vector<MethodEvidence>& methods() const { return methods_; }
-  std::vector<MethodSums> sums() const {
-    std::vector<MethodSums> out;
-    for (std::size_t k = 0; k < methods_.size(); ++k) out.push_back(tallies_[k].sums(methods_[k].name));
-    return out;
-  }
-  const Tally* find(const std::string& name) const {
+  const std::vector<MethodSums>& sums() const { return sums_; }
+  const MethodSums* find(const std::string& name) const {
     const auto found = place_.find(name);
-    return found == place_.end() ? nullptr : &tallies_[found->second];
+    return found == place_.end() ? nullptr : &sums_[found->second];
   }
 
  private:
   std::size_t lights_;
+  bool coloured_;
   std::map<std::string, std::size_t> place_;
   std::vector<MethodEvidence> methods_;
-  std::vector<Tally> tallies_;
+  std::vector<MethodSums> sums_;
 };
 
 MethodEvidence method(std::string name) {
@@ -144,23 +85,32 @@ MethodEvidence realis_method(const RealisKind& kind) {
   return out;
 }
 
-std::vector<float> luminances(const TexelBlock& block) {
+// Errors are taken of planes: of luminance, and where colour is baked of red, green and blue too.
+constexpr std::size_t kLuminancePlane = 0;
+constexpr std::size_t kFirstChannel = 1;
+constexpr std::size_t kPlanes = 4;
+
+// [light][texel].
+std::vector<float> values_of(const TexelBlock& block, std::size_t plane) {
   std::vector<float> out(block.lights * block.count());
   for (std::size_t light = 0; light < block.lights; ++light) {
     for (std::size_t k = 0; k < block.count(); ++k) {
       double sum = 0.0;
-      for (std::size_t c = 0; c < 3; ++c)
+      for (std::size_t c = 0; c < 3 && plane == kLuminancePlane; ++c)
         sum += kLuminance[c] * static_cast<double>(block.plane(light, c)[k]);
-      out[light * block.count() + k] = static_cast<float>(sum);
+      out[light * block.count() + k] =
+          plane == kLuminancePlane ? static_cast<float>(sum) : block.plane(light, plane - kFirstChannel)[k];
     }
   }
   return out;
 }
 
-std::vector<float> difference(std::span<const float> a, std::span<const float> b) {
-  std::vector<float> out(a.size());
-  for (std::size_t k = 0; k < a.size(); ++k) out[k] = a[k] - b[k];
-  return out;
+// What a basis of directions, fitted per texel to what was seen, misses of the truth under other lights.
+std::vector<float> error_of_fit(const Eigen::MatrixXd& from, const Eigen::MatrixXd& to, std::size_t texels,
+                                std::span<const float> seen, std::span<const float> truth) {
+  std::vector<float> errors = fit_and_predict(from, seen, texels, to);
+  for (std::size_t k = 0; k < errors.size(); ++k) errors[k] = truth[k] - errors[k];
+  return errors;
 }
 
 // What a plan predicts of some lights.
@@ -168,9 +118,20 @@ class Predictor {
  public:
   Predictor(const StackInfo& info, const TexelBlock& sample, const BakePlan& plan,
             const BakeSettings& settings, const EvidenceOptions& options, Tallies& tallies)
-      : info_(info), sample_(sample), plan_(plan), settings_(settings), options_(options), tallies_(tallies) {
+      : info_(info),
+        sample_(sample),
+        plan_(plan),
+        settings_(settings),
+        colour_(settings.colour),
+        options_(options),
+        tallies_(tallies) {
     settings_.colour = RealisColour::kLuminance;
     baked_ = bake_block(info, sample, plan, settings_);
+    problems_ = std::move(baked_.problems);
+    if (is_coloured()) {
+      add_channels(problems_, train_info(), train_block(),
+                   rendered(train_info(), train_block(), baked_.surface, plan_.base));
+    }
   }
 
   void predict(const LightChoice& lights) {
@@ -181,109 +142,176 @@ class Predictor {
     check();
     compare_bases(targets);
     check();
-    compare_baselines(targets);
+    const Base base = base_of(targets, baked_.surface, plan_.base);
+    compare_baselines(targets, base);
     check();
-    compare_realis(targets);
+    compare_realis(targets, base);
   }
 
  private:
+  // A base model under the lights to predict.
   struct Base {
-    TexelProblem problem;
+    std::vector<TexelProblem> problems;  // of planes
     std::vector<float> shade;
+
+    const TexelProblem& luminance() const { return problems[kLuminancePlane]; }
   };
 
-  Base base_of(const Targets& targets, const Surface& surface, const BaseModel& base) const {
-    BlockRender render = render_of(targets.info, targets.block, surface, all_lights(targets.info), base,
-                                   settings_.albedo_in_modulation);
-    Base out{luminance_problem(targets.info, targets.block, render), {}};
-    out.shade = std::move(render.shade);
-    return out;
+  bool is_coloured() const { return colour_ != RealisColour::kLuminance; }
+
+  static std::span<const TexelProblem, 3> channels_of(const std::vector<TexelProblem>& problems) {
+    return std::span<const TexelProblem, kPlanes>(problems.data(), kPlanes).subspan<kFirstChannel, 3>();
   }
 
-  void add(const MethodEvidence& name, const Targets& targets, const Base& base,
+  static void add_channels(std::vector<TexelProblem>& problems, const StackInfo& info,
+                           const TexelBlock& block, const BlockRender& render) {
+    for (TexelProblem& channel : rgb_problems(info, block, render)) problems.push_back(std::move(channel));
+  }
+
+  BlockRender rendered(const StackInfo& info, const TexelBlock& block, const Surface& surface,
+                       const BaseModel& base) const {
+    return render_of(info, block, surface, all_lights(info), base, settings_.albedo_in_modulation);
+  }
+
+  Base base_of(const Targets& targets, const Surface& surface, const BaseModel& model) const {
+    BlockRender render = rendered(targets.info, targets.block, surface, model);
+    Base base;
+    base.problems.push_back(luminance_problem(targets.info, targets.block, render));
+    if (is_coloured()) add_channels(base.problems, targets.info, targets.block, render);
+    base.shade = std::move(render.shade);
+    return base;
+  }
+
+  // Errors of a plane.
+  void add(const MethodEvidence& name, const Targets& targets, const Base& base, std::size_t plane,
            std::span<const float> errors) {
-    tallies_[name].add(targets, base.problem, base.shade, errors);
+    MethodSums& sums = tallies_[name];
+    ErrorSums& to = plane == kLuminancePlane ? sums.luminance : sums.rgb;
+    to.add(targets.lights, base.problems[plane], base.shade, errors);
+  }
+
+  void add_channel_errors(const MethodEvidence& name, const Targets& targets, const Base& base,
+                          const ChannelPlanes& errors) {
+    for (std::size_t c = 0; c < 3; ++c) add(name, targets, base, kFirstChannel + c, errors[c]);
+  }
+
+  // Of the base model itself.
+  void add_base_errors(const MethodEvidence& name, const Targets& targets, const Base& base) {
+    for (std::size_t plane = 0; plane < base.problems.size(); ++plane) {
+      add(name, targets, base, plane, base.problems[plane].residual);
+    }
   }
 
   void compare_bases(const Targets& targets) {
-    const Surface lambert = photometric_stereo(train_info(), train_block(), all_lights(train_info()));
-    const Base plain = base_of(targets, lambert, BaseModel{});
-    add(method("lambert"), targets, plain, plain.problem.residual);
+    const LightChoice all = all_lights(train_info());
+    const Surface lambert = photometric_stereo(train_info(), train_block(), all);
+    compare_base("lambert", targets, lambert, BaseModel{});
     if (!plan_.material || !plan_.material->model.material) return;
     const BaseModel& model = plan_.material->model;
-    const Base fitted = base_of(
-        targets, with_base_colour(train_info(), train_block(), lambert, all_lights(train_info()), model),
-        model);
-    add(method("model"), targets, fitted, fitted.problem.residual);
+    compare_base("model", targets, with_base_colour(train_info(), train_block(), lambert, all, model), model);
   }
 
-  void compare_baselines(const Targets& targets) {
-    const Base base = base_of(targets, baked_.surface, plan_.base);
-    const std::vector<float> seen = luminances(train_block());
-    const std::vector<float> truth = luminances(targets.block);
+  void compare_base(const std::string& name, const Targets& targets, const Surface& surface,
+                    const BaseModel& model) {
+    add_base_errors(method(name), targets, base_of(targets, surface, model));
+  }
+
+  void compare_baselines(const Targets& targets, const Base& base) {
     const std::size_t texels = sample_.count();
     const std::vector<Vec3> from = directions_of(train_info());
     const std::vector<Vec3> to = directions_of(targets.info);
-    const auto error_of = [&](const Eigen::MatrixXd& basis, const Eigen::MatrixXd& target,
-                              std::span<const float> values, std::span<const float> expected) {
-      return difference(expected, fit_and_predict(basis, values, texels, target));
-    };
-    add(method("ptm"), targets, base, error_of(ptm_basis(from), ptm_basis(to), seen, truth));
-    add(method("sh9"), targets, base, error_of(harmonics_basis(from), harmonics_basis(to), seen, truth));
-    add(method("sh9-residual"), targets, base,
-        error_of(harmonics_basis(from), harmonics_basis(to), baked_.problems[0].residual,
-                 base.problem.residual));
+    const Eigen::MatrixXd harmonics_from = harmonics_basis(from);
+    const Eigen::MatrixXd harmonics_to = harmonics_basis(to);
+    for (std::size_t plane = 0; plane < base.problems.size(); ++plane) {
+      const std::vector<float> seen = values_of(train_block(), plane);
+      const std::vector<float> truth = values_of(targets.block, plane);
+      add(method("ptm"), targets, base, plane,
+          error_of_fit(ptm_basis(from), ptm_basis(to), texels, seen, truth));
+      add(method("sh9"), targets, base, plane,
+          error_of_fit(harmonics_from, harmonics_to, texels, seen, truth));
+      add(method("sh9-residual"), targets, base, plane,
+          error_of_fit(harmonics_from, harmonics_to, texels, problems_[plane].residual,
+                       base.problems[plane].residual));
+    }
   }
 
-  // What is left of the base's error when lobes with these amplitudes correct it.
+  // What is left of the base's error of luminance when lobes with these amplitudes correct it.
   std::vector<float> corrected(const Base& base, const Targets& targets, const LobeSystem& system,
                                std::span<const float> amplitudes) const {
-    const std::vector<float> sums = lobe_sums(system.lobes(), directions_of(targets.info),
-                                              base.problem.directions, amplitudes, base.problem.texels);
-    std::vector<float> errors = base.problem.residual;
-    for (std::size_t k = 0; k < errors.size(); ++k) errors[k] -= base.problem.modulation[k] * sums[k];
+    const TexelProblem& problem = base.luminance();
+    const std::vector<float> sums = lobe_sums(system.lobes(), directions_of(targets.info), problem.directions,
+                                              amplitudes, problem.texels);
+    std::vector<float> errors = problem.residual;
+    for (std::size_t k = 0; k < errors.size(); ++k) errors[k] -= problem.modulation[k] * sums[k];
     return errors;
   }
 
-  void compare_realis(const Targets& targets) {
-    const Base base = base_of(targets, baked_.surface, plan_.base);
+  // The same in each channel, as the asset corrects it.
+  ChannelPlanes corrected_channels(const Base& base, const Targets& targets, const LobeSystem& system,
+                                   std::span<const std::vector<float>> amplitudes,
+                                   std::span<const float> chroma) const {
+    return channel_errors(channels_of(base.problems), system.lobes(), directions_of(targets.info), amplitudes,
+                          chroma);
+  }
+
+  void compare_realis(const Targets& targets, const Base& base) {
+    if (is_coloured()) compare_without_colour(targets, base);
     compare_lobes("realis", base, targets, plan_.system, settings_.lobes, options_.compressed);
     for (const auto& [lobes, system] : plan_.also) {
       compare_lobes(fmt::format("realis-k{}", lobes), base, targets, system, lobes, false);
     }
   }
 
+  // One amplitude per lobe for all channels.
+  void compare_without_colour(const Targets& targets, const Base& base) {
+    const int lobes = plan_.system ? static_cast<int>(plan_.system->lobes().size()) : settings_.lobes;
+    const RealisKind kind =
+        realis_kinds("realis-luminance", lobes, RealisColour::kLuminance, false, options_.dither)[0];
+    const MethodEvidence name = realis_method(kind);
+    if (!plan_.system) return add_base_errors(name, targets, base);
+    const std::vector<float>& amplitudes = baked_.solved[0].amplitudes;
+    add(name, targets, base, kLuminancePlane, corrected(base, targets, *plan_.system, amplitudes));
+    add_channel_errors(name, targets, base,
+                       corrected_channels(base, targets, *plan_.system, {&amplitudes, 1}, {}));
+  }
+
   // asked: the number of lobes where there is no system, as no lobes help.
   void compare_lobes(const std::string& name, const Base& base, const Targets& targets,
                      const std::optional<LobeSystem>& system, int asked, bool compressed) {
     const int lobes = system ? static_cast<int>(system->lobes().size()) : asked;
-    const std::vector<RealisKind> kinds = realis_kinds(name, lobes, compressed, options_.dither);
+    const std::vector<RealisKind> kinds = realis_kinds(name, lobes, colour_, compressed, options_.dither);
     if (!system) {
-      for (const RealisKind& kind : kinds) add(realis_method(kind), targets, base, base.problem.residual);
+      for (const RealisKind& kind : kinds) add_base_errors(realis_method(kind), targets, base);
       return;
     }
-    const SolveResult solved = solve(*system, baked_.problems[0]);
-    std::map<int, std::vector<std::uint32_t>> masks;  // by how many lobes are kept
+    const std::span<const TexelProblem> problems = colour_ == RealisColour::kRgb
+                                                       ? std::span<const TexelProblem>(channels_of(problems_))
+                                                       : std::span<const TexelProblem>(problems_).first(1);
+    std::vector<SolveResult> solved;
+    for (const TexelProblem& problem : problems) solved.push_back(solve(*system, problem));
+    std::vector<float> chroma;
+    if (colour_ == RealisColour::kScaledChroma) {
+      chroma = chroma_of(*system, channels_of(problems_), solved[0].amplitudes);
+    }
+    KeptAmplitudes kept(*system, problems, solved, sample_.texels, info_.width);
     for (const RealisKind& kind : kinds) {
-      std::vector<std::uint32_t>& mask = masks[kind.options.dominant];
-      if (kind.options.dominant < lobes && mask.empty()) {
-        mask = dominant_masks(*system, std::span(baked_.problems).first(1), std::span(&solved, 1),
-                              kind.options.dominant);
-      }
-      const std::vector<float> amplitudes =
-          kind.is_whole() ? solved.amplitudes
-                          : compressed_amplitudes(*system, solved.amplitudes, kind.options, mask);
-      add(realis_method(kind), targets, base, corrected(base, targets, *system, amplitudes));
+      std::vector<std::vector<RealisRange>> ranges;
+      if (kind.options.bits > 0) ranges = kept.ranges(kind.options);
+      const std::vector<std::vector<float>> amplitudes = kept.amplitudes(kind.options, ranges);
+      add_corrected(realis_method(kind), targets, base, *system, amplitudes, chroma);
     }
   }
 
-  std::vector<float> compressed_amplitudes(const LobeSystem& system, std::span<const float> amplitudes,
-                                           const CompressOptions& options,
-                                           std::span<const std::uint32_t> masks) const {
-    const TexelProblem& problem = baked_.problems[0];
-    const std::vector<RealisRange> ranges = code_ranges(system, problem, amplitudes, options, masks);
-    return compress_block(system, problem, amplitudes, sample_.texels, info_.width, ranges, options, masks)
-        .amplitudes;
+  void add_corrected(const MethodEvidence& name, const Targets& targets, const Base& base,
+                     const LobeSystem& system, std::span<const std::vector<float>> amplitudes,
+                     std::span<const float> chroma) {
+    if (!is_coloured()) {
+      add(name, targets, base, kLuminancePlane, corrected(base, targets, system, amplitudes[0]));
+      return;
+    }
+    const ChannelPlanes errors = corrected_channels(base, targets, system, amplitudes, chroma);
+    add(name, targets, base, kLuminancePlane, luminance_of(errors));
+    add_channel_errors(name, targets, base, errors);
   }
 
   const StackInfo& train_info() {
@@ -299,9 +327,11 @@ class Predictor {
   const TexelBlock& sample_;
   const BakePlan& plan_;
   BakeSettings settings_;
+  RealisColour colour_;
   const EvidenceOptions& options_;
   Tallies& tallies_;
-  BakedBlock baked_;
+  BakedBlock baked_;                    // for luminance, its problem moved to
+  std::vector<TexelProblem> problems_;  // of planes, under the lights that were baked from
   std::optional<StackInfo> train_info_;
   std::optional<TexelBlock> train_block_;
 };
@@ -311,19 +341,21 @@ class Predictor {
 double RealisKind::bytes_per_texel() const {
   RealisAsset asset;
   asset.lobes.resize(static_cast<std::size_t>(lobes));
+  asset.colour = colour;
   asset.packing.bits = options.bits == 0 ? 32 : options.bits;
   asset.packing.dominant = options.dominant;
   return asset.bytes_per_texel();
 }
 
-std::vector<RealisKind> realis_kinds(const std::string& name, int lobes, bool compressed, bool dither) {
+std::vector<RealisKind> realis_kinds(const std::string& name, int lobes, RealisColour colour, bool compressed,
+                                     bool dither) {
   const int half = std::max(1, lobes / 2);
-  std::vector<RealisKind> kinds{{name, lobes, {0, lobes, false}}};
+  std::vector<RealisKind> kinds{{name, lobes, {0, lobes, false}, colour}};
   if (compressed) {
-    kinds.push_back({name + "-8bit", lobes, {8, lobes, dither}});
-    kinds.push_back({name + "-4bit", lobes, {4, lobes, dither}});
-    kinds.push_back({fmt::format("{}-m{}", name, half), lobes, {0, half, false}});
-    kinds.push_back({fmt::format("{}-m{}-8bit", name, half), lobes, {8, half, dither}});
+    kinds.push_back({name + "-8bit", lobes, {8, lobes, dither}, colour});
+    kinds.push_back({name + "-4bit", lobes, {4, lobes, dither}, colour});
+    kinds.push_back({fmt::format("{}-m{}", name, half), lobes, {0, half, false}, colour});
+    kinds.push_back({fmt::format("{}-m{}-8bit", name, half), lobes, {8, half, dither}, colour});
   }
   return kinds;
 }
@@ -381,9 +413,10 @@ Evidence evaluate(const StackInfo& info, const TexelBlock& sample, const BakePla
   Evidence evidence;
   evidence.folds = fold_count(lights, options.folds);
   evidence.texels = sample.count();
-  Tallies train(lights);
+  const bool coloured = settings.colour != RealisColour::kLuminance;
+  Tallies train(lights, coloured);
   Predictor(info, sample, plan, settings, options, train).predict(plan.lights);
-  Tallies held(lights);
+  Tallies held(lights, coloured);
   for (int fold = 0; fold < evidence.folds; ++fold) {
     const LightChoice out = held_out_lights(lights, fold, evidence.folds);
     const LightChoice kept = without(info, out);
@@ -391,19 +424,28 @@ Evidence evaluate(const StackInfo& info, const TexelBlock& sample, const BakePla
     const auto make = [&] {
       FoldEvidence made;
       made.plan = plan_bake(info, sample, kept, settings);
-      Tallies tallies(lights);
+      Tallies tallies(lights, coloured);
       Predictor(info, sample, made.plan, settings, options, tallies).predict(out);
       made.sums = tallies.sums();
       return made;
     };
     FoldEvidence found = options.fold_of ? options.fold_of(fold, make) : make();
-    for (const MethodSums& sums : found.sums) held[method(sums.name)].add(sums);
+    for (const MethodSums& sums : found.sums) {
+      MethodSums& all = held[method(sums.name)];
+      all.luminance.add(sums.luminance);
+      all.rgb.add(sums.rgb);
+    }
     if (options.on_fold) options.on_fold(fold, fold_plans(std::move(found.plan)));
     if (options.progress) options.progress(static_cast<double>(fold + 1) / evidence.folds);
   }
   for (MethodEvidence found : train.methods()) {
-    found.train = train.find(found.name)->errors();
-    if (const Tally* tally = held.find(found.name)) found.held_out = tally->errors();
+    const MethodSums& baked_from = *train.find(found.name);
+    found.train = baked_from.luminance.errors();
+    if (coloured) found.rgb.emplace().train = baked_from.rgb.errors();
+    if (const MethodSums* sums = held.find(found.name)) {
+      found.held_out = sums->luminance.errors();
+      if (coloured) found.rgb->held_out = sums->rgb.errors();
+    }
     evidence.methods.push_back(std::move(found));
   }
   return evidence;

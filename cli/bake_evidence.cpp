@@ -38,6 +38,20 @@ io::Json lobe_choice_json(const bake::LobeChoice& choice) {
   return json;
 }
 
+std::string heading(const std::string& title) {
+  return fmt::format("{:<18} {:>6} {:>9} {:>9} {:>9} {:>9} {:>9}  {}\n", title, "bytes", "train", "held out",
+                     "lit", "PSNR dB", "worst", "under light");
+}
+
+std::string row(const bake::MethodEvidence& method, const bake::StackErrors& train,
+                const bake::StackErrors& held_out, const StackInfo& info) {
+  const std::string bytes =
+      method.lobes > 0 && method.bits > 0 ? fmt::format("{:.1f}", method.bytes_per_texel) : "";
+  return fmt::format("{:<18} {:>6} {:>9.2f} {:>9.2f} {:>9.2f} {:>9.2f} {:>9.2f}  {}\n", method.name, bytes,
+                     train.rmse_255, held_out.rmse_255, held_out.lit_rmse_255, held_out.psnr_db,
+                     held_out.worst_light_rmse_255, info.lights[held_out.worst_light].name);
+}
+
 }  // namespace
 
 std::string title_of(const bake::BaseModel& base) {
@@ -60,6 +74,17 @@ io::Json evidence_json(const bake::Evidence& evidence) {
       one["dominant"] = method.dominant;
       one["bits"] = method.bits;
       one["bytes_per_texel"] = method.bytes_per_texel;
+    }
+    if (method.rgb) {
+      const auto& [train, held_out] = *method.rgb;
+      one["rgb_train_rmse_255"] = train.rmse_255;
+      one["rgb_held_out_rmse_255"] = held_out.rmse_255;
+      one["rgb_held_out_lit_rmse_255"] = held_out.lit_rmse_255;
+      one["rgb_worst_light_rmse_255"] = held_out.worst_light_rmse_255;
+      one["rgb_worst_light"] = held_out.worst_light;
+      one["rgb_train_psnr_db"] = train.psnr_db;
+      one["rgb_held_out_psnr_db"] = held_out.psnr_db;
+      one["rgb_held_out_per_light_255"] = held_out.per_light_255;
     }
     json[method.name] = std::move(one);
   }
@@ -89,13 +114,15 @@ io::Json plan_json(const bake::BakePlan& plan, const StackInfo& info) {
 }
 
 std::string evidence_text(const bake::Evidence& evidence, const StackInfo& info) {
-  std::string text = fmt::format("{:<18} {:>6} {:>9} {:>9} {:>9} {:>9} {:>9}  {}\n", "RMSE in 1/255", "bytes",
-                                 "train", "held out", "lit", "PSNR dB", "worst", "under light");
+  std::string text = heading("RMSE in 1/255");
+  bool has_rgb = false;
   for (const bake::MethodEvidence& m : evidence.methods) {
-    const std::string bytes = m.lobes > 0 && m.bits > 0 ? fmt::format("{:.1f}", m.bytes_per_texel) : "";
-    text += fmt::format("{:<18} {:>6} {:>9.2f} {:>9.2f} {:>9.2f} {:>9.2f} {:>9.2f}  {}\n", m.name, bytes,
-                        m.train.rmse_255, m.held_out.rmse_255, m.held_out.lit_rmse_255, m.held_out.psnr_db,
-                        m.held_out.worst_light_rmse_255, info.lights[m.held_out.worst_light].name);
+    text += row(m, m.train, m.held_out, info);
+    has_rgb = has_rgb || m.rgb;
+  }
+  if (has_rgb) text += heading("RGB RMSE in 1/255");
+  for (const bake::MethodEvidence& m : evidence.methods) {
+    if (m.rgb) text += row(m, m.rgb->train, m.rgb->held_out, info);
   }
   text += fmt::format("held out: {} folds over {} lights, everything redone in each; {} texels\n",
                       evidence.folds, info.lights.size(), evidence.texels);
