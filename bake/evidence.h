@@ -5,36 +5,14 @@
 
 #include <functional>
 #include <map>
-#include <optional>
 #include <string>
 #include <vector>
 
-#include "bake/compress_block.h"
-#include "bake/error_sums.h"
+#include "bake/compare_methods.h"
 #include "bake/plan.h"
 #include "measured/image_stack.h"
 
 namespace brdfit::bake {
-
-// Under lights that were baked from, and under lights that were held out.
-struct MethodErrors {
-  StackErrors train;
-  StackErrors held_out;
-};
-
-// One way to relight a stack.
-struct MethodEvidence {
-  // "lambert", "model", "ptm", "sh9", "sh9-residual", "realis", "realis-k4", "realis-8bit", ...; where colour
-  // is baked also "realis-luminance": what the same lobes would do without it.
-  std::string name;
-  int lobes = 0;  // of Realis
-  int dominant = 0;
-  int bits = 0;  // 0: not rounded
-  double bytes_per_texel = 0.0;
-  StackErrors train;  // of luminance
-  StackErrors held_out;
-  std::optional<MethodErrors> rgb;  // of the three channels together; nothing where luminance alone is baked
-};
 
 // What was planned without the lights of a fold.
 struct FoldPlans {
@@ -44,13 +22,6 @@ struct FoldPlans {
 
 // From a plan with BakePlan::also.
 FoldPlans fold_plans(BakePlan plan);
-
-// One method's squared errors under the lights of a fold.
-struct MethodSums {
-  std::string name;  // as MethodEvidence::name
-  ErrorSums luminance;
-  ErrorSums rgb;  // of values of all channels; empty where luminance alone is baked
-};
 
 // What a fold adds to the evidence.
 struct FoldEvidence {
@@ -70,19 +41,6 @@ struct EvidenceOptions {
   std::function<void(int fold, FoldPlans plans)> on_fold;  // takes a fold's plans; may be empty
 };
 
-// One size of Realis.
-struct RealisKind {
-  std::string name;  // as MethodEvidence::name
-  int lobes = 0;
-  CompressOptions options;
-  RealisColour colour = RealisColour::kLuminance;
-  bool is_whole() const { return options.bits == 0 && options.dominant == lobes; }
-  double bytes_per_texel() const;
-};
-// `name` itself, not rounded; with `compressed` also with 8 and 4 bits, and with half of the lobes per texel.
-std::vector<RealisKind> realis_kinds(const std::string& name, int lobes, RealisColour colour, bool compressed,
-                                     bool dither);
-
 struct Evidence {
   int folds = 0;
   std::size_t texels = 0;  // looked at
@@ -95,9 +53,7 @@ BakeSettings with_compared_lobes(BakeSettings settings, const EvidenceOptions& o
 
 // For every fold everything is planned and baked without its lights: normals, albedo, gains, material, lobes,
 // ridge and which texels are corrected; a held-out light has its manifest intensity. sample: texels with all
-// lights. plan: that of all lights, for the training errors. Realis corrects as the asset does at run time:
-// with BakeSettings::colour its errors, of luminance too, are those of channels that were corrected by
-// amplitudes of their own, or by those of luminance and the texel's chroma.
+// lights. plan: that of all lights, for the training errors. What is compared: compare_methods.
 Evidence evaluate(const StackInfo& info, const TexelBlock& sample, const BakePlan& plan,
                   const BakeSettings& settings, const EvidenceOptions& options = {});
 
