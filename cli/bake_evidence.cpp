@@ -38,6 +38,18 @@ io::Json lobe_choice_json(const bake::LobeChoice& choice) {
   return json;
 }
 
+void add_errors(io::Json& json, const std::string& prefix, const bake::StackErrors& train,
+                const bake::StackErrors& held_out) {
+  json[prefix + "train_rmse_255"] = train.rmse_255;
+  json[prefix + "held_out_rmse_255"] = held_out.rmse_255;
+  json[prefix + "held_out_lit_rmse_255"] = held_out.lit_rmse_255;
+  json[prefix + "worst_light_rmse_255"] = held_out.worst_light_rmse_255;
+  json[prefix + "worst_light"] = held_out.worst_light;
+  json[prefix + "train_psnr_db"] = train.psnr_db;
+  json[prefix + "held_out_psnr_db"] = held_out.psnr_db;
+  json[prefix + "held_out_per_light_255"] = held_out.per_light_255;
+}
+
 std::string heading(const std::string& title) {
   return fmt::format("{:<18} {:>6} {:>9} {:>9} {:>9} {:>9} {:>9}  {}\n", title, "bytes", "train", "held out",
                      "lit", "PSNR dB", "worst", "under light");
@@ -61,31 +73,15 @@ std::string title_of(const bake::BaseModel& base) {
 io::Json evidence_json(const bake::Evidence& evidence) {
   io::Json json = io::Json::object();
   for (const bake::MethodEvidence& method : evidence.methods) {
-    io::Json one = {{"train_rmse_255", method.train.rmse_255},
-                    {"held_out_rmse_255", method.held_out.rmse_255},
-                    {"held_out_lit_rmse_255", method.held_out.lit_rmse_255},
-                    {"worst_light_rmse_255", method.held_out.worst_light_rmse_255},
-                    {"worst_light", method.held_out.worst_light},
-                    {"train_psnr_db", method.train.psnr_db},
-                    {"held_out_psnr_db", method.held_out.psnr_db},
-                    {"held_out_per_light_255", method.held_out.per_light_255}};
+    io::Json one;
+    add_errors(one, "", method.train, method.held_out);
     if (method.lobes > 0) {
       one["lobes"] = method.lobes;
       one["dominant"] = method.dominant;
       one["bits"] = method.bits;
       one["bytes_per_texel"] = method.bytes_per_texel;
     }
-    if (method.rgb) {
-      const auto& [train, held_out] = *method.rgb;
-      one["rgb_train_rmse_255"] = train.rmse_255;
-      one["rgb_held_out_rmse_255"] = held_out.rmse_255;
-      one["rgb_held_out_lit_rmse_255"] = held_out.lit_rmse_255;
-      one["rgb_worst_light_rmse_255"] = held_out.worst_light_rmse_255;
-      one["rgb_worst_light"] = held_out.worst_light;
-      one["rgb_train_psnr_db"] = train.psnr_db;
-      one["rgb_held_out_psnr_db"] = held_out.psnr_db;
-      one["rgb_held_out_per_light_255"] = held_out.per_light_255;
-    }
+    if (method.rgb) add_errors(one, "rgb_", method.rgb->train, method.rgb->held_out);
     json[method.name] = std::move(one);
   }
   return json;

@@ -1,8 +1,10 @@
 // Shared bakes of a sample, and what choices store.
 #include "cli/cost/choice_bake.h"
 
+#include <span>
 #include <utility>
 
+#include "bake/channel_errors.h"
 #include "bake/kept_amplitudes.h"
 
 namespace brdfit::cli {
@@ -62,11 +64,8 @@ Stored ChoiceBake::stored(const StackChoice& choice) {
   const std::vector<bake::TexelProblem>& problems = baked(choice.colour).problems;
   const std::vector<bake::SolveResult>& results = solved(choice, system);
   if (choice.colour == RealisColour::kScaledChroma) {
-    bake::BakeSettings settings = settings_;
-    settings.colour = RealisColour::kScaledChroma;
-    bake::BakePlan plan = plans_.plan;
-    plan.system = system;
-    out.chroma = bake::bake_block(info_, sample_, plan, settings).chroma;
+    const std::span<const bake::TexelProblem, 3> rgb(baked(RealisColour::kRgb).problems);
+    out.chroma = bake::chroma_of(system, rgb, results.front().amplitudes);
   }
   const bake::CompressOptions options{choice.is_code() ? static_cast<int>(choice.bits) : 0, choice.dominant,
                                       dither_};
