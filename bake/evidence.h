@@ -8,33 +8,11 @@
 #include <string>
 #include <vector>
 
-#include "bake/compress_block.h"
+#include "bake/compare_methods.h"
 #include "bake/plan.h"
 #include "measured/image_stack.h"
 
 namespace brdfit::bake {
-
-// Of predicted luminances, over texels and lights, in 1/255 (a value of 1 is 255).
-struct StackErrors {
-  double rmse_255 = 0.0;
-  double psnr_db = 0.0;       // of a peak of 1
-  double lit_rmse_255 = 0.0;  // where the texel faces the light
-  double worst_light_rmse_255 = 0.0;
-  std::size_t worst_light = 0;
-  std::vector<double> per_light_255;
-};
-
-// One way to relight a stack.
-struct MethodEvidence {
-  std::string
-      name;  // "lambert", "model", "ptm", "sh9", "sh9-residual", "realis", "realis-k4", "realis-8bit", ...
-  int lobes = 0;  // of Realis
-  int dominant = 0;
-  int bits = 0;  // 0: not rounded
-  double bytes_per_texel = 0.0;
-  StackErrors train;
-  StackErrors held_out;
-};
 
 // What was planned without the lights of a fold.
 struct FoldPlans {
@@ -44,15 +22,6 @@ struct FoldPlans {
 
 // From a plan with BakePlan::also.
 FoldPlans fold_plans(BakePlan plan);
-
-// One method's squared errors under the lights of a fold.
-struct MethodSums {
-  std::string name;             // as MethodEvidence::name
-  std::vector<double> squares;  // per light of the stack: sums over texels
-  std::vector<double> counts;   // values in them
-  double lit_squares = 0.0;     // where the texel faces the light
-  double lit_count = 0.0;
-};
 
 // What a fold adds to the evidence.
 struct FoldEvidence {
@@ -72,17 +41,6 @@ struct EvidenceOptions {
   std::function<void(int fold, FoldPlans plans)> on_fold;  // takes a fold's plans; may be empty
 };
 
-// One size of Realis.
-struct RealisKind {
-  std::string name;  // as MethodEvidence::name
-  int lobes = 0;
-  CompressOptions options;
-  bool is_whole() const { return options.bits == 0 && options.dominant == lobes; }
-  double bytes_per_texel() const;  // of luminance
-};
-// `name` itself, not rounded; with `compressed` also with 8 and 4 bits, and with half of the lobes per texel.
-std::vector<RealisKind> realis_kinds(const std::string& name, int lobes, bool compressed, bool dither);
-
 struct Evidence {
   int folds = 0;
   std::size_t texels = 0;  // looked at
@@ -95,7 +53,7 @@ BakeSettings with_compared_lobes(BakeSettings settings, const EvidenceOptions& o
 
 // For every fold everything is planned and baked without its lights: normals, albedo, gains, material, lobes,
 // ridge and which texels are corrected; a held-out light has its manifest intensity. sample: texels with all
-// lights. plan: that of all lights, for the training errors.
+// lights. plan: that of all lights, for the training errors. What is compared: compare_methods.
 Evidence evaluate(const StackInfo& info, const TexelBlock& sample, const BakePlan& plan,
                   const BakeSettings& settings, const EvidenceOptions& options = {});
 

@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "bake/base_model.h"
+#include "bake/kept_amplitudes.h"
 #include "bake/luminance.h"
 
 namespace brdfit::bake {
@@ -26,6 +27,10 @@ struct BakedBy {
     for (const SolveResult& result : block.solved) out.push_back(result.amplitudes);
     return out;
   }
+  // Of a block that was baked with lobes, as its texels lie in a picture of that width.
+  KeptAmplitudes kept(const TexelBlock& texels, int width) const {
+    return {*system, block.problems, block.solved, texels.texels, width};
+  }
 };
 
 BakedBy bake_by(const StackInfo& info, const TexelBlock& block, const BakePlan& plan,
@@ -36,53 +41,9 @@ BakedBy bake_by(const StackInfo& info, const TexelBlock& block, const BakePlan& 
 // How one kind of a plan comes to its amplitudes.
 struct Kind {
   RealisKind kind;
-  int plan = 0;                                  // number of lobes of another plan; 0: the plan itself
+  int plan = 0;  // number of lobes of another plan, all of them whole; 0: the plan itself
   std::vector<std::vector<RealisRange>> ranges;  // of each problem; empty where not rounded
 };
-
-// The lobes that texels of one bake keep, found once for all kinds that keep as many.
-class KeptLobes {
- public:
-  explicit KeptLobes(const BakedBy& baked) : baked_(baked) {}
-
-  // As the asset has them: channels of a texel keep the same lobes. Empty where all are kept.
-  const std::vector<std::uint32_t>& of(const RealisKind& kind) {
-    std::vector<std::uint32_t>& masks = masks_[kind.options.dominant];
-    if (kind.options.dominant < kind.lobes && masks.empty()) {
-      masks =
-          dominant_masks(*baked_.system, baked_.block.problems, baked_.block.solved, kind.options.dominant);
-    }
-    return masks;
-  }
-
- private:
-  const BakedBy& baked_;
-  std::map<int, std::vector<std::uint32_t>> masks_;
-};
-
-Amplitudes amplitudes_of(const Kind& kind, const BakedBy& baked, KeptLobes& kept, const TexelBlock& block,
-                         int width) {
-  if (kind.kind.is_whole()) return baked.solved();
-  const std::vector<std::uint32_t>& masks = kept.of(kind.kind);
-  Amplitudes out;
-  for (std::size_t p = 0; p < baked.block.solved.size(); ++p) {
-    out.push_back(compress_block(*baked.system, baked.block.problems[p], baked.block.solved[p].amplitudes,
-                                 block.texels, width, kind.ranges[p], kind.kind.options, masks)
-                      .amplitudes);
-  }
-  return out;
-}
-
-std::vector<std::vector<RealisRange>> ranges_of(const BakedBy& baked, KeptLobes& kept,
-                                                const RealisKind& kind) {
-  const std::vector<std::uint32_t>& masks = kept.of(kind);
-  std::vector<std::vector<RealisRange>> out;
-  for (std::size_t p = 0; p < baked.block.solved.size(); ++p) {
-    out.push_back(code_ranges(*baked.system, baked.block.problems[p], baked.block.solved[p].amplitudes,
-                              kind.options, masks));
-  }
-  return out;
-}
 
 }  // namespace
 
@@ -110,15 +71,15 @@ struct HeldOutBaker::State {
   void add_kinds(const TexelBlock& sample, bool dither) {
     for (const auto& [lobes, plan] : plans.other_lobes) {
       if (!plan.system) continue;
-      kinds.push_back({realis_kinds(fmt::format("realis-k{}", lobes), lobes, false, dither)[0], lobes, {}});
+      const std::string name = fmt::format("realis-k{}", lobes);
+      kinds.push_back({realis_kinds(name, lobes, settings.colour, false, dither)[0], lobes, {}});
     }
     const BakedBy baked = bake_by(info, sample, plans.plan, settings);
     if (baked.system) {
       const auto lobes = static_cast<int>(baked.system->lobes().size());
-      const std::vector<RealisKind> all = realis_kinds("realis", lobes, true, dither);
-      KeptLobes kept(baked);
-      for (std::size_t k = 1; k < all.size(); ++k)
-        kinds.push_back({all[k], 0, ranges_of(baked, kept, all[k])});
+      const std::vector<RealisKind> all = realis_kinds("realis", lobes, settings.colour, true, dither);
+      KeptAmplitudes kept = baked.kept(sample, info.width);
+      for (std::size_t k = 1; k < all.size(); ++k) kinds.push_back({all[k], 0, kept.ranges(all[k].options)});
     }
     for (const Kind& kind : kinds) names.push_back(kind.kind);
   }
@@ -191,14 +152,16 @@ HeldOutTexels HeldOutBaker::bake(const TexelBlock& block) const {
   std::unique_ptr<HeldOutTexels::State> texels(new HeldOutTexels::State{
       s, block.texels, bake_by(s.info, block, s.plans.plan, s.settings), {}, {}, {}});
   texels->whole = {&texels->baked, texels->baked.solved()};
-  KeptLobes kept(texels->baked);
+  std::optional<KeptAmplitudes> kept;
+  if (texels->baked.system != nullptr) kept.emplace(texels->baked.kept(block, s.info.width));
   for (const Kind& kind : s.kinds) {
-    const BakedBy* baked = &texels->baked;
-    if (kind.plan != 0) {
-      baked = &texels->others.emplace(kind.plan, bake_by(s.info, block, s.plan_of(kind), s.settings))
-                   .first->second;
+    if (kind.plan == 0) {
+      texels->ways.push_back({&texels->baked, kept->amplitudes(kind.kind.options, kind.ranges)});
+      continue;
     }
-    texels->ways.push_back({baked, amplitudes_of(kind, *baked, kept, block, s.info.width)});
+    const BakedBy& other =
+        texels->others.emplace(kind.plan, bake_by(s.info, block, s.plan_of(kind), s.settings)).first->second;
+    texels->ways.push_back({&other, other.solved()});
   }
   return HeldOutTexels(std::move(texels));
 }

@@ -9,6 +9,7 @@
 #include <stdexcept>
 #include <utility>
 
+#include "bake/channel_errors.h"
 #include "bake/luminance.h"
 #include "bake/ridge.h"
 
@@ -280,10 +281,7 @@ BakedBlock bake_block(const StackInfo& whole, const TexelBlock& whole_block, con
   if (!plan.system) return baked;
   for (const TexelProblem& problem : baked.problems) baked.solved.push_back(solve(*plan.system, problem));
   if (settings.colour != RealisColour::kScaledChroma) return baked;
-  const auto channels = rgb_problems(info, block, render);
-  baked.chroma = chroma_scales(
-      channels, lobe_sums(plan.system->lobes(), plan.system->directions(), baked.problems[0].directions,
-                          baked.solved[0].amplitudes, block.count()));
+  baked.chroma = chroma_of(*plan.system, rgb_problems(info, block, render), baked.solved[0].amplitudes);
   return baked;
 }
 

@@ -125,14 +125,24 @@ static void fields(Archive& a, StackErrors& errors) {
 }
 
 template <class Archive>
+static void fields(Archive& a, MethodErrors& errors) {
+  a(errors.train, errors.held_out);
+}
+
+template <class Archive>
 static void fields(Archive& a, MethodEvidence& method) {
   a(method.name, method.lobes, method.dominant, method.bits, method.bytes_per_texel, method.train,
-    method.held_out);
+    method.held_out, method.rgb);
+}
+
+template <class Archive>
+static void fields(Archive& a, ErrorSums& sums) {
+  a(sums.squares, sums.counts, sums.lit_squares, sums.lit_count);
 }
 
 template <class Archive>
 static void fields(Archive& a, MethodSums& sums) {
-  a(sums.name, sums.squares, sums.counts, sums.lit_squares, sums.lit_count);
+  a(sums.name, sums.luminance, sums.rgb);
 }
 
 template <class Archive>

@@ -38,6 +38,32 @@ io::Json lobe_choice_json(const bake::LobeChoice& choice) {
   return json;
 }
 
+void add_errors(io::Json& json, const std::string& prefix, const bake::StackErrors& train,
+                const bake::StackErrors& held_out) {
+  json[prefix + "train_rmse_255"] = train.rmse_255;
+  json[prefix + "held_out_rmse_255"] = held_out.rmse_255;
+  json[prefix + "held_out_lit_rmse_255"] = held_out.lit_rmse_255;
+  json[prefix + "worst_light_rmse_255"] = held_out.worst_light_rmse_255;
+  json[prefix + "worst_light"] = held_out.worst_light;
+  json[prefix + "train_psnr_db"] = train.psnr_db;
+  json[prefix + "held_out_psnr_db"] = held_out.psnr_db;
+  json[prefix + "held_out_per_light_255"] = held_out.per_light_255;
+}
+
+std::string heading(const std::string& title) {
+  return fmt::format("{:<18} {:>6} {:>9} {:>9} {:>9} {:>9} {:>9}  {}\n", title, "bytes", "train", "held out",
+                     "lit", "PSNR dB", "worst", "under light");
+}
+
+std::string row(const bake::MethodEvidence& method, const bake::StackErrors& train,
+                const bake::StackErrors& held_out, const StackInfo& info) {
+  const std::string bytes =
+      method.lobes > 0 && method.bits > 0 ? fmt::format("{:.1f}", method.bytes_per_texel) : "";
+  return fmt::format("{:<18} {:>6} {:>9.2f} {:>9.2f} {:>9.2f} {:>9.2f} {:>9.2f}  {}\n", method.name, bytes,
+                     train.rmse_255, held_out.rmse_255, held_out.lit_rmse_255, held_out.psnr_db,
+                     held_out.worst_light_rmse_255, info.lights[held_out.worst_light].name);
+}
+
 }  // namespace
 
 std::string title_of(const bake::BaseModel& base) {
@@ -47,20 +73,15 @@ std::string title_of(const bake::BaseModel& base) {
 io::Json evidence_json(const bake::Evidence& evidence) {
   io::Json json = io::Json::object();
   for (const bake::MethodEvidence& method : evidence.methods) {
-    io::Json one = {{"train_rmse_255", method.train.rmse_255},
-                    {"held_out_rmse_255", method.held_out.rmse_255},
-                    {"held_out_lit_rmse_255", method.held_out.lit_rmse_255},
-                    {"worst_light_rmse_255", method.held_out.worst_light_rmse_255},
-                    {"worst_light", method.held_out.worst_light},
-                    {"train_psnr_db", method.train.psnr_db},
-                    {"held_out_psnr_db", method.held_out.psnr_db},
-                    {"held_out_per_light_255", method.held_out.per_light_255}};
+    io::Json one;
+    add_errors(one, "", method.train, method.held_out);
     if (method.lobes > 0) {
       one["lobes"] = method.lobes;
       one["dominant"] = method.dominant;
       one["bits"] = method.bits;
       one["bytes_per_texel"] = method.bytes_per_texel;
     }
+    if (method.rgb) add_errors(one, "rgb_", method.rgb->train, method.rgb->held_out);
     json[method.name] = std::move(one);
   }
   return json;
@@ -89,13 +110,15 @@ io::Json plan_json(const bake::BakePlan& plan, const StackInfo& info) {
 }
 
 std::string evidence_text(const bake::Evidence& evidence, const StackInfo& info) {
-  std::string text = fmt::format("{:<18} {:>6} {:>9} {:>9} {:>9} {:>9} {:>9}  {}\n", "RMSE in 1/255", "bytes",
-                                 "train", "held out", "lit", "PSNR dB", "worst", "under light");
+  std::string text = heading("RMSE in 1/255");
+  bool has_rgb = false;
   for (const bake::MethodEvidence& m : evidence.methods) {
-    const std::string bytes = m.lobes > 0 && m.bits > 0 ? fmt::format("{:.1f}", m.bytes_per_texel) : "";
-    text += fmt::format("{:<18} {:>6} {:>9.2f} {:>9.2f} {:>9.2f} {:>9.2f} {:>9.2f}  {}\n", m.name, bytes,
-                        m.train.rmse_255, m.held_out.rmse_255, m.held_out.lit_rmse_255, m.held_out.psnr_db,
-                        m.held_out.worst_light_rmse_255, info.lights[m.held_out.worst_light].name);
+    text += row(m, m.train, m.held_out, info);
+    has_rgb = has_rgb || m.rgb;
+  }
+  if (has_rgb) text += heading("RGB RMSE in 1/255");
+  for (const bake::MethodEvidence& m : evidence.methods) {
+    if (m.rgb) text += row(m, m.rgb->train, m.rgb->held_out, info);
   }
   text += fmt::format("held out: {} folds over {} lights, everything redone in each; {} texels\n",
                       evidence.folds, info.lights.size(), evidence.texels);

@@ -83,7 +83,7 @@ class BakeRestartTest : public testing::Test {
     restart.keep_ranges({{0.1, 3}});
     bake::FoldEvidence fold;
     fold.plan = plan;
-    fold.sums.push_back({"realis", {0.1, 0.2}, {3.0, 4.0}, 0.7, 2.0});
+    fold.sums.push_back({"realis", {{0.1, 0.2}, {3.0, 4.0}, 0.7, 2.0}, {{0.3, 0.4}, {9.0, 12.0}, 0.9, 6.0}});
     restart.keep_fold(1, fold);
     restart.keep_strip(0, 2, strip_of(2, 0.5F));
     restart.keep_strip(6, 2, strip_of(2, 0.25F));
@@ -106,7 +106,8 @@ TEST_F(BakeRestartTest, TakesOverWhatWasKept) {
   EXPECT_FALSE(restart.evidence());
   EXPECT_FALSE(restart.has_fold(0));
   ASSERT_TRUE(restart.has_fold(1));
-  EXPECT_EQ(restart.fold(1)->sums[0].lit_squares, 0.7);
+  EXPECT_EQ(restart.fold(1)->sums[0].luminance.lit_squares, 0.7);
+  EXPECT_EQ(restart.fold(1)->sums[0].rgb.squares, (std::vector<double>{0.3, 0.4}));
   EXPECT_EQ(restart.rows_at(0), 2);
   EXPECT_EQ(restart.rows_at(1), 0);
   EXPECT_EQ(restart.next_kept(2, 10), 6);
@@ -124,7 +125,7 @@ TEST_F(BakeRestartTest, MakesAFoldOnceAndThenReadsIt) {
   const auto make = [&] {
     ++made;
     bake::FoldEvidence fold;
-    fold.sums.push_back({"lambert", {0.5}, {1.0}, 0.0, 0.0});
+    fold.sums.push_back({"lambert", {{0.5}, {1.0}, 0.0, 0.0}, {}});
     return fold;
   };
   {

@@ -180,6 +180,23 @@ TEST_F(CliBakePictures, ReportTheErrorsOfTheEvidence) {
   EXPECT_TRUE(std::filesystem::exists(path("baked/bumps.benefit.png")));
 }
 
+TEST_F(CliBakePictures, ReportTheErrorsOfTheEvidenceOfColourToo) {
+  synth(recipe());
+  for (const std::string colour : {"scaled-chroma", "rgb"}) {
+    ASSERT_EQ(bake(colour, "--panels 4 --colour " + colour).exit_code, 0);
+    const io::Json bake = io::read_json(path(colour + "/bumps.realis.json"))["bake"];
+    std::size_t compared = 0;
+    for (const io::Json& shown : bake["pictures"]["panels"][0]["tiles"]) {
+      const std::string name = shown["name"];
+      if (!bake["evidence"].contains(name)) continue;
+      ++compared;
+      const double expected = bake["evidence"][name]["held_out_per_light_255"][4];
+      EXPECT_NEAR(shown["rmse_255"].get<double>(), expected, 1e-4 * expected) << colour << " " << name;
+    }
+    EXPECT_GE(compared, 5U);
+  }
+}
+
 TEST_F(CliBakePictures, NothingLooksAtTheLightThatIsHeldOut) {
   synth(recipe());
   const std::vector<std::string> kinds = {"", "--no-evidence --colour rgb ",

@@ -66,13 +66,31 @@ TEST_F(CliBake, CorrectsWhatTheModelMissesUnderLightsThatItHasNotSeen) {
   EXPECT_EQ(json["bytes_per_texel"], 4.0);
 }
 
+TEST_F(CliBake, SaysWhatColourIsWorthWhereColourIsBaked) {
+  synth(recipe());
+  const std::string options = "bake --force --lobes 2 --uniform --base lambert --folds 2 --sample 100 -o " +
+                              quoted("baked") + " --colour ";
+  const tests::ProgramResult plain = run(options + "luminance " + quoted("stack/bumps.olat.json"));
+  EXPECT_THAT(plain.out, testing::Not(HasSubstr("RGB")));
+  const tests::ProgramResult coloured = run(options + "rgb " + quoted("stack/bumps.olat.json"));
+  EXPECT_THAT(coloured.out, HasSubstr("RGB RMSE in 1/255"));
+  const io::Json evidence = io::read_json(path("baked/bumps.realis.json"))["bake"]["evidence"];
+  for (const auto& [name, method] : evidence.items()) {
+    EXPECT_THAT(coloured.out, HasSubstr("\n" + name + " "));
+    EXPECT_EQ(method["rgb_held_out_per_light_255"].size(), 30U) << name;
+    EXPECT_GE(method["rgb_worst_light_rmse_255"], method["rgb_held_out_rmse_255"]) << name;
+  }
+  EXPECT_LT(evidence["realis"]["rgb_held_out_rmse_255"], evidence["lambert"]["rgb_held_out_rmse_255"]);
+}
+
 TEST_F(CliBake, WhatIsWrittenFitsItsSchema) {
   synth(recipe());
   const tests::JsonSchema schema(
       io::read_json(std::filesystem::path(BRDFIT_SOURCE_DIR) / "docs/schema/realis.schema.json"));
   for (const std::string& options :
        {std::string("--base auto --model lambert-ggx --gains --folds 2 --lobes 2 --sample 100"),
-        std::string("--base lambert --no-evidence --lobes 2 --uniform --colour rgb")}) {
+        std::string("--base lambert --no-evidence --lobes 2 --uniform --colour rgb"),
+        std::string("--base lambert --folds 2 --lobes 2 --uniform --sample 100 --colour scaled-chroma")}) {
     const tests::ProgramResult baked = bake(options);
     ASSERT_EQ(baked.exit_code, 0) << baked.err;
     const io::Json json = io::read_json(path("baked/bumps.realis.json"));

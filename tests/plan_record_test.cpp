@@ -101,9 +101,9 @@ TEST(PlanRecord, LeavesNothingOutThatIsCutShortAndTakesNothingThatIsTooLong) {
   EXPECT_THROW(plan_of_record(huge), BadRecord);
 }
 
-TEST(PlanRecord, EvidenceFromFoldsThatAreReadBackIsTheSame) {
-  const Made made;
+void expect_evidence_through_records(const Made& made, RealisColour colour) {
   BakeSettings settings;
+  settings.colour = colour;
   settings.base = BaseKind::kLambert;
   settings.optimise = false;
   settings.lobes = 2;
@@ -130,6 +130,12 @@ TEST(PlanRecord, EvidenceFromFoldsThatAreReadBackIsTheSame) {
             evidence_record(expected));
   EXPECT_EQ(made_anew, 2);
   EXPECT_EQ(evidence_record(evidence_of_record(evidence_record(expected))), evidence_record(expected));
+}
+
+TEST(PlanRecord, EvidenceFromFoldsThatAreReadBackIsTheSame) {
+  const Made made;
+  expect_evidence_through_records(made, RealisColour::kLuminance);
+  expect_evidence_through_records(made, RealisColour::kRgb);
 }
 
 TEST(PlanRecord, KeepsNumbersThatTextDoesNot) {

@@ -124,19 +124,23 @@ TEST_F(StackSweepTest, EveryPointHasEveryFigure) {
   }
 }
 
-// The evidence of a bake, which plans everything for itself.
-TEST_F(StackSweepTest, ErrorsOfLuminanceAreThoseOfTheEvidenceOfABake) {
-  BakeStack stack(options_->bake, true);
+// Of a bake of that colour, which plans everything for itself.
+bake::Evidence evidence_of_bake(BakeArguments arguments, const std::string& colour) {
+  BakeStack stack(arguments, true);
   std::vector<std::uint32_t> all(stack.info().texel_count());
   std::iota(all.begin(), all.end(), 0U);
   const TexelBlock sample = stack.read_texels(all);
-  BakeArguments arguments = options_->bake;
   arguments.lobes = "8";
+  arguments.colour = colour;
   const bake::BakeSettings settings = bake_settings_of(arguments);
-  bake::EvidenceOptions evidence_options;
-  evidence_options.folds = kFolds;
+  bake::EvidenceOptions options;
+  options.folds = kFolds;
   const bake::BakePlan plan = bake::plan_bake(stack.info(), sample, bake::all_lights(stack.info()), settings);
-  const bake::Evidence evidence = bake::evaluate(stack.info(), sample, plan, settings, evidence_options);
+  return bake::evaluate(stack.info(), sample, plan, settings, options);
+}
+
+TEST_F(StackSweepTest, ErrorsOfLuminanceAreThoseOfTheEvidenceOfABake) {
+  const bake::Evidence evidence = evidence_of_bake(options_->bake, "luminance");
   for (const auto& [sweep, method] :
        {std::pair("default", "realis-8bit"), {"bits", "realis-4bit"}, {"dominant", "realis-m4-8bit"}}) {
     const bake::MethodEvidence& expected = *evidence.find(method);
@@ -147,6 +151,22 @@ TEST_F(StackSweepTest, ErrorsOfLuminanceAreThoseOfTheEvidenceOfABake) {
         << method;
     EXPECT_NEAR(error(sweep, "train_rmse_255") / expected.train.rmse_255, 1.0, 1e-4) << method;
     EXPECT_EQ(point(sweep).bytes, expected.bytes_per_texel) << method;
+  }
+}
+
+TEST_F(StackSweepTest, ErrorsOfColourAreThoseOfTheEvidenceOfABake) {
+  for (const std::string colour : {"scaled-chroma", "rgb"}) {
+    const bake::MethodEvidence expected = *evidence_of_bake(options_->bake, colour).find("realis-8bit");
+    const CostPoint& found = *std::ranges::find_if(
+        run_->points, [&](const CostPoint& p) { return setting_of(p, "colour") == colour; });
+    const auto expect_near = [&](const char* key, double figure) {
+      EXPECT_NEAR(error_of(found, key) / figure, 1.0, 1e-4) << colour << " " << key;
+    };
+    expect_near("held_out_rgb_rmse_255", expected.rgb->held_out.rmse_255);
+    expect_near("train_rgb_rmse_255", expected.rgb->train.rmse_255);
+    expect_near("held_out_rmse_255", expected.held_out.rmse_255);
+    expect_near("held_out_worst_light_rmse_255", expected.held_out.worst_light_rmse_255);
+    EXPECT_EQ(found.bytes, expected.bytes_per_texel) << colour;
   }
 }
 

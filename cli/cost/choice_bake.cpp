@@ -1,8 +1,11 @@
 // Shared bakes of a sample, and what choices store.
 #include "cli/cost/choice_bake.h"
 
-#include <algorithm>
+#include <span>
 #include <utility>
+
+#include "bake/channel_errors.h"
+#include "bake/kept_amplitudes.h"
 
 namespace brdfit::cli {
 
@@ -60,38 +63,23 @@ Stored ChoiceBake::stored(const StackChoice& choice) {
   out.lobes = system.lobes();
   const std::vector<bake::TexelProblem>& problems = baked(choice.colour).problems;
   const std::vector<bake::SolveResult>& results = solved(choice, system);
-  const bool keeps_all = choice.dominant >= choice.lobes;
   if (choice.colour == RealisColour::kScaledChroma) {
-    bake::BakeSettings settings = settings_;
-    settings.colour = RealisColour::kScaledChroma;
-    bake::BakePlan plan = plans_.plan;
-    plan.system = system;
-    out.chroma = bake::bake_block(info_, sample_, plan, settings).chroma;
+    const std::span<const bake::TexelProblem, 3> rgb(baked(RealisColour::kRgb).problems);
+    out.chroma = bake::chroma_of(system, rgb, results.front().amplitudes);
   }
   const bake::CompressOptions options{choice.is_code() ? static_cast<int>(choice.bits) : 0, choice.dominant,
                                       dither_};
+  bake::KeptAmplitudes kept(system, problems, results, sample_.texels, info_.width);
+  const std::vector<std::vector<RealisRange>> ranges = kept.ranges(options);
+  out.amplitudes = kept.amplitudes(options, ranges);
+  out.masks = kept.masks(choice.dominant);
   const std::size_t channels = problems.size();
-  const std::vector<std::uint32_t> shared =
-      keeps_all || channels == 1 ? std::vector<std::uint32_t>()
-                                 : bake::dominant_masks(system, problems, results, choice.dominant);
   out.ranges.resize(out.lobes.size() * channels);
   for (std::size_t c = 0; c < channels; ++c) {
-    if (!choice.is_code() && keeps_all) {
-      out.amplitudes.push_back(results[c].amplitudes);
-    } else {
-      const std::vector<RealisRange> ranges =
-          bake::code_ranges(system, problems[c], results[c].amplitudes, options, shared);
-      bake::Compressed small = bake::compress_block(system, problems[c], results[c].amplitudes,
-                                                    sample_.texels, info_.width, ranges, options, shared);
-      out.amplitudes.push_back(std::move(small.amplitudes));
-      for (std::size_t k = 0; k < ranges.size(); ++k) out.ranges[k * channels + c] = ranges[k];
-      out.masks.resize(small.masks.size(), 0);
-      for (std::size_t k = 0; k < small.masks.size(); ++k) out.masks[k] |= small.masks[k];
-    }
+    for (std::size_t k = 0; k < ranges[c].size(); ++k) out.ranges[k * channels + c] = ranges[c][k];
     if (choice.bits != bake::AmplitudeBits::kHalf) continue;
-    for (float& amplitude : out.amplitudes.back()) amplitude = bake::rounded_to_half(amplitude);
+    for (float& amplitude : out.amplitudes[c]) amplitude = bake::rounded_to_half(amplitude);
   }
-  if (keeps_all) out.masks.clear();
   return out;
 }
 

@@ -53,7 +53,6 @@ class ChoiceBake {
   bool dither_;
   std::map<RealisColour, bake::BakedBlock> baked_;
   std::map<std::tuple<RealisColour, int, double>, std::vector<bake::SolveResult>> solved_;
-  std::map<RealisColour, std::vector<float>> chroma_;
 };
 
 }  // namespace brdfit::cli

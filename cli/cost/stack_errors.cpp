@@ -2,18 +2,13 @@
 #include "cli/cost/stack_errors.h"
 
 #include <array>
-#include <cmath>
 
+#include "bake/channel_errors.h"
 #include "bake/gains.h"
-#include "bake/luminance.h"
 #include "bake/shrunk_stack.h"
 
 namespace brdfit::cli {
 namespace {
-
-double root_mean_255(double sum, double count) {
-  return count > 0.0 ? 255.0 * std::sqrt(sum / count) : 0.0;
-}
 
 // What there is to correct under the lights to predict.
 struct Base {
@@ -54,58 +49,17 @@ void magnify(Stored& stored, const StackTargets& targets, int shrink, const Texe
 
 void add_choice(const Base& base, const Stored& stored, const bake::LightChoice& lights,
                 StackErrorSums& sums) {
-  std::vector<std::vector<float>> corrections;
-  for (const std::vector<float>& amplitudes : stored.amplitudes) {
-    corrections.push_back(bake::lobe_sums(stored.lobes, directions_of(base.info), base.rgb[0].directions,
-                                          amplitudes, base.rgb[0].texels));
-  }
-  const std::size_t texels = base.rgb[0].texels;
-  for (std::size_t l = 0; l < lights.size(); ++l) {
-    for (std::size_t k = 0; k < texels; ++k) {
-      if (base.rgb[0].weight_of(l, k) == 0.0F) continue;
-      const std::size_t at = base.rgb[0].at(l, k);
-      std::array<double, 3> errors{};
-      for (std::size_t c = 0; c < 3; ++c) {
-        double sum = 0.0;
-        if (!corrections.empty()) sum = static_cast<double>(corrections[corrections.size() == 3 ? c : 0][at]);
-        if (!stored.chroma.empty()) sum *= static_cast<double>(stored.chroma[c * texels + k]);
-        errors[c] = static_cast<double>(base.rgb[c].residual[at]) -
-                    static_cast<double>(base.rgb[c].modulation[at]) * sum;
-      }
-      sums.add(lights[l], errors, base.shade[at] > 0.0F);
-    }
-  }
+  const bake::ChannelPlanes errors = bake::channel_errors(base.rgb, stored.lobes, directions_of(base.info),
+                                                          stored.amplitudes, stored.chroma);
+  sums.luminance.add(lights, base.rgb[0], base.shade, bake::luminance_of(errors));
+  for (std::size_t c = 0; c < 3; ++c) sums.rgb.add(lights, base.rgb[c], base.shade, errors[c]);
 }
 
 }  // namespace
 
-void StackErrorSums::add(std::size_t light, std::span<const double, 3> rgb, bool is_lit) {
-  double luminance = 0.0;
-  for (std::size_t c = 0; c < 3; ++c) {
-    luminance += bake::kLuminance[c] * rgb[c];
-    rgb_ += rgb[c] * rgb[c] / 3.0;
-  }
-  luminance_[light] += luminance * luminance;
-  count_[light] += 1.0;
-  if (!is_lit) return;
-  lit_ += luminance * luminance;
-  lit_count_ += 1.0;
-}
-
 StackErrorSummary StackErrorSums::summary() const {
-  StackErrorSummary out;
-  double sum = 0.0;
-  double count = 0.0;
-  for (std::size_t light = 0; light < luminance_.size(); ++light) {
-    sum += luminance_[light];
-    count += count_[light];
-    out.worst_light_rmse_255 =
-        std::max(out.worst_light_rmse_255, root_mean_255(luminance_[light], count_[light]));
-  }
-  out.rgb_rmse_255 = root_mean_255(rgb_, count);
-  out.rmse_255 = root_mean_255(sum, count);
-  out.lit_rmse_255 = root_mean_255(lit_, lit_count_);
-  return out;
+  const bake::StackErrors errors = luminance.errors();
+  return {rgb.errors().rmse_255, errors.rmse_255, errors.lit_rmse_255, errors.worst_light_rmse_255};
 }
 
 void add_errors(const StackTargets& targets, const bake::LightChoice& lights, const TexelBlock& baked_sample,

@@ -4,8 +4,8 @@
 
 #include <cstddef>
 #include <span>
-#include <vector>
 
+#include "bake/error_sums.h"
 #include "bake/plan.h"
 #include "cli/cost/choice_bake.h"
 
@@ -20,19 +20,13 @@ struct StackErrorSummary {
 };
 
 // Sums of squares, per light.
-class StackErrorSums {
- public:
-  explicit StackErrorSums(std::size_t lights) : luminance_(lights), count_(lights) {}
-  // rgb: the three channels' errors of one value.
-  void add(std::size_t light, std::span<const double, 3> rgb, bool is_lit);
-  StackErrorSummary summary() const;
+struct StackErrorSums {
+  bake::ErrorSums luminance;
+  bake::ErrorSums rgb;
 
- private:
-  std::vector<double> luminance_;
-  std::vector<double> count_;
-  double rgb_ = 0.0;
-  double lit_ = 0.0;
-  double lit_count_ = 0.0;
+  explicit StackErrorSums(std::size_t lights)
+      : luminance(bake::ErrorSums::of_lights(lights)), rgb(bake::ErrorSums::of_lights(lights)) {}
+  StackErrorSummary summary() const;
 };
 
 // Texels at which errors are taken, in the size of the whole picture, with all lights.
