@@ -76,6 +76,10 @@ void AtomicFile::write_at(std::uint64_t offset_bytes, std::span<const std::byte>
   }
 }
 
+void AtomicFile::begin_flush() {
+  static_cast<void>(sync_file_range(descriptor_, 0, 0, SYNC_FILE_RANGE_WRITE));
+}
+
 void AtomicFile::commit() {
   if (fsync(descriptor_) != 0) fail(file_, "flushed", errno);
   if (close(std::exchange(descriptor_, -1)) != 0) fail(file_, "closed", errno);

@@ -26,6 +26,10 @@ class AtomicFile {
   // At an offset from the file's beginning, for formats that fill in a table when they end.
   void write_at(std::uint64_t offset_bytes, std::span<const std::byte> bytes);
 
+  // Lets the system begin to write what it has been given, so that commit() finds less to wait for. A hint:
+  // never an error.
+  void begin_flush();
+
   // Flushes to the disk and renames. Throws IoError (kOutput).
   void commit();
 

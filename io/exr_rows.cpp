@@ -49,6 +49,7 @@ class AtomicStream : public Imf::OStream {
     file_.write_at(place_ - gathered_.size(), gathered_);
     gathered_.clear();
   }
+  void begin_flush() { file_.begin_flush(); }
   void commit() {
     flush();
     file_.commit();
@@ -151,6 +152,7 @@ void ExrRowWriter::write(std::span<const float> planes, int rows) {
   }
   s.output->setFrameBuffer(frame);
   s.output->writePixels(rows);
+  s.stream.begin_flush();
   s.done += rows;
 }
 
