@@ -1,8 +1,11 @@
 // Passes over a stack's rows, gathering pictures.
 #include "cli/bake_pictures.h"
 
+#include <tbb/task_group.h>
+
 #include <algorithm>
 #include <cmath>
+#include <memory>
 #include <utility>
 
 #include "bake/luminance.h"
@@ -206,10 +209,17 @@ void BakePictures::add_light(std::uint32_t light, const bake::HeldOutTexels& tex
 }
 
 void BakePictures::write_pass() {
+  // Compressing takes longer than drawing, and each picture is by itself.
+  tbb::task_group writing;
+  const auto write = [&](const std::filesystem::path& file, render::Picture picture) {
+    writing.run([file, kept = std::make_shared<const render::Picture>(std::move(picture))] {
+      write_picture(file, *kept, {});
+    });
+  };
   if (benefit_) {
     const std::string file = name_ + ".benefit.png";
     DrawnPanel drawn = draw_benefit(*benefit_, name_, info_.lights.size(), grid_);
-    write_picture(std::filesystem::path(a_.output) / file, drawn.picture, {});
+    write(std::filesystem::path(a_.output) / file, std::move(drawn.picture));
     json_["step"] = grid_.step;
     json_["tile"] = {grid_.enlargement * grid_.width, grid_.enlargement * grid_.height};
     json_["benefit"] = std::move(drawn.facts);
@@ -220,7 +230,7 @@ void BakePictures::write_pass() {
   for (const auto& [light, gathered] : now_) {
     const HeldOutPanel& panel = gathered.panel;
     DrawnPanel drawn = draw_held_out_panel(panel, grid_);
-    write_picture(folder() / gathered.choice->file, drawn.picture, {});
+    write(folder() / gathered.choice->file, std::move(drawn.picture));
     io::Json facts = {{"file", name_ + ".panels/" + gathered.choice->file},
                       {"light", panel.light.name},
                       {"place", light},
@@ -229,6 +239,7 @@ void BakePictures::write_pass() {
     facts.update(drawn.facts);
     json_["panels"].push_back(std::move(facts));
   }
+  writing.wait();
 }
 
 void BakePictures::finish(ImageStack& stack, int strip_rows,
