@@ -145,7 +145,7 @@ AssetWriter::AssetWriter(const RealisAsset& asset, const std::filesystem::path& 
   const int width = asset.width;
   const int height = asset.height;
   const io::ExrCompression compression = zip ? io::ExrCompression::kZip : io::ExrCompression::kNone;
-  // Codes are nearly noise: compressing them takes as long as solving, and saves two bytes of five.
+  // Codes are nearly noise: compressing them takes half as long as solving, and saves two bytes of five.
   const io::PngCompression of_codes = zip ? io::PngCompression::kQuick : io::PngCompression::kNone;
   if (!files.amplitudes.empty()) {
     s.amplitudes.emplace(folder / files.amplitudes, width, height, realis_channel_names(asset), depth,
