@@ -256,8 +256,8 @@ class Comparison {
   // One amplitude per lobe for all channels.
   void compare_without_colour(const Targets& targets, const Base& base) {
     const int lobes = plan_.system ? static_cast<int>(plan_.system->lobes().size()) : settings_.lobes;
-    const RealisKind kind =
-        realis_kinds("realis-luminance", lobes, RealisColour::kLuminance, false, options_.dither)[0];
+    const RealisKind kind = realis_kinds("realis-luminance", lobes, options_.kept, RealisColour::kLuminance,
+                                         false, options_.dither)[0];
     const MethodEvidence name = realis_method(kind);
     if (!plan_.system) return add_base_errors(name, targets, base);
     const std::vector<float>& amplitudes = baked_.solved[0].amplitudes;
@@ -270,7 +270,8 @@ class Comparison {
   void compare_lobes(const std::string& name, const Base& base, const Targets& targets,
                      const std::optional<LobeSystem>& system, int asked, bool compressed) {
     const int lobes = system ? static_cast<int>(system->lobes().size()) : asked;
-    const std::vector<RealisKind> kinds = realis_kinds(name, lobes, colour_, compressed, options_.dither);
+    const std::vector<RealisKind> kinds =
+        realis_kinds(name, lobes, options_.kept, colour_, compressed, options_.dither);
     if (!system) {
       for (const RealisKind& kind : kinds) add_base_errors(realis_method(kind), targets, base);
       return;
@@ -338,15 +339,19 @@ double RealisKind::bytes_per_texel() const {
   return asset.bytes_per_texel();
 }
 
-std::vector<RealisKind> realis_kinds(const std::string& name, int lobes, RealisColour colour, bool compressed,
-                                     bool dither) {
-  const int half = std::max(1, lobes / 2);
+int half_of(int lobes) {
+  return std::max(1, lobes / 2);
+}
+
+std::vector<RealisKind> realis_kinds(const std::string& name, int lobes, int kept, RealisColour colour,
+                                     bool compressed, bool dither) {
   std::vector<RealisKind> kinds{{name, lobes, {0, lobes, false}, colour}};
   if (compressed) {
+    const int dominant = std::min(kept, lobes);
     kinds.push_back({name + "-8bit", lobes, {8, lobes, dither}, colour});
     kinds.push_back({name + "-4bit", lobes, {4, lobes, dither}, colour});
-    kinds.push_back({fmt::format("{}-m{}", name, half), lobes, {0, half, false}, colour});
-    kinds.push_back({fmt::format("{}-m{}-8bit", name, half), lobes, {8, half, dither}, colour});
+    kinds.push_back({fmt::format("{}-m{}", name, kept), lobes, {0, dominant, false}, colour});
+    kinds.push_back({fmt::format("{}-m{}-8bit", name, kept), lobes, {8, dominant, dither}, colour});
   }
   return kinds;
 }

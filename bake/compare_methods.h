@@ -50,12 +50,16 @@ struct RealisKind {
   bool is_whole() const { return options.bits == 0 && options.dominant == lobes; }
   double bytes_per_texel() const;
 };
-// `name` itself, not rounded; with `compressed` also with 8 and 4 bits, and with half of the lobes per texel.
-std::vector<RealisKind> realis_kinds(const std::string& name, int lobes, RealisColour colour, bool compressed,
-                                     bool dither);
+// `name` itself, not rounded; with `compressed` also with 8 and 4 bits, and with `kept` lobes per texel (at
+// least 1; all, where there are fewer), by whose number these are called.
+std::vector<RealisKind> realis_kinds(const std::string& name, int lobes, int kept, RealisColour colour,
+                                     bool compressed, bool dither);
+// Half of the lobes.
+int half_of(int lobes);
 
 struct MethodOptions {
-  bool compressed = true;       // Realis with 8 and 4 bits, and with half of the lobes per texel, too
+  bool compressed = true;       // Realis with 8 and 4 bits, and with fewer lobes per texel, too
+  int kept = 1;                 // so many of them: the same for plans that are compared, whatever their lobes
   bool dither = true;           // of what is rounded
   std::function<void()> check;  // called between steps; may throw to stop. May be empty
 };

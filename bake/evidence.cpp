@@ -87,9 +87,11 @@ Evidence evaluate(const StackInfo& info, const TexelBlock& sample, const BakePla
   Evidence evidence;
   evidence.folds = fold_count(lights, options.folds);
   evidence.texels = sample.count();
+  // Folds may choose other numbers of lobes than the whole plan: they keep as many per texel as it would.
+  const int most_kept = half_of(plan.system ? static_cast<int>(plan.system->lobes().size()) : settings.lobes);
+  const MethodOptions methods{options.compressed, most_kept, options.dither, options.check};
   const auto compare = [&](const BakePlan& by, const LightChoice& under) {
-    return compare_methods(info, sample, by, settings, {options.compressed, options.dither, options.check},
-                           under);
+    return compare_methods(info, sample, by, settings, methods, under);
   };
   ComparedMethods train = compare(plan, plan.lights);
   SumsByName held;

@@ -72,12 +72,14 @@ struct HeldOutBaker::State {
     for (const auto& [lobes, plan] : plans.other_lobes) {
       if (!plan.system) continue;
       const std::string name = fmt::format("realis-k{}", lobes);
-      kinds.push_back({realis_kinds(name, lobes, settings.colour, false, dither)[0], lobes, {}});
+      kinds.push_back(
+          {realis_kinds(name, lobes, half_of(lobes), settings.colour, false, dither)[0], lobes, {}});
     }
     const BakedBy baked = bake_by(info, sample, plans.plan, settings);
     if (baked.system) {
       const auto lobes = static_cast<int>(baked.system->lobes().size());
-      const std::vector<RealisKind> all = realis_kinds("realis", lobes, settings.colour, true, dither);
+      const std::vector<RealisKind> all =
+          realis_kinds("realis", lobes, half_of(lobes), settings.colour, true, dither);
       KeptAmplitudes kept = baked.kept(sample, info.width);
       for (std::size_t k = 1; k < all.size(); ++k) kinds.push_back({all[k], 0, kept.ranges(all[k].options)});
     }

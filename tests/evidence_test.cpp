@@ -107,6 +107,30 @@ TEST(Evidence, OfAGreyStackHasTheErrorsOfLuminanceInRgb) {
   }
 }
 
+TEST(Evidence, PlansOfOtherNumbersOfLobesAreComparedUnderTheSameNames) {
+  // With --lobes auto each fold chooses its own number; sizes must not be judged by some of the folds alone.
+  const Pictures pictures = pictures_of(bumps(4));
+  const LightChoice all = all_lights(pictures.info);
+  const auto methods_of = [&](int lobes) {
+    BakeSettings settings = settings_for(RealisColour::kLuminance);
+    settings.lobes = lobes;
+    const BakePlan plan = plan_bake(pictures.info, pictures.block, all, settings);
+    EXPECT_TRUE(plan.system);
+    MethodOptions options;
+    options.kept = 3;
+    return compare_methods(pictures.info, pictures.block, plan, settings, options, all).methods;
+  };
+  const std::vector<MethodEvidence> six = methods_of(6);
+  const std::vector<MethodEvidence> two = methods_of(2);
+  ASSERT_EQ(six.size(), two.size());
+  for (std::size_t k = 0; k < six.size(); ++k) {
+    EXPECT_EQ(six[k].name, two[k].name);
+    if (!six[k].name.ends_with("-m3")) continue;
+    EXPECT_EQ(six[k].dominant, 3);
+    EXPECT_EQ(two[k].dominant, 2);
+  }
+}
+
 TEST(Evidence, OfLuminanceKnowsNothingOfColourAndIsTheSameBesideIt) {
   const Pictures pictures = coloured_pictures();
   const Evidence plain = evidence_of(pictures, settings_for(RealisColour::kLuminance));
