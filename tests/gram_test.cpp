@@ -269,10 +269,17 @@ Effects isotropic_subset(Model model, unsigned index) {
   return testing_support::effect_subset(model, index).without(Effect::kAnisotropic);
 }
 
+// The sanitizers ask whether memory is touched that is not there: for that every effect on and off is enough.
+#if defined(__SANITIZE_ADDRESS__)
+constexpr unsigned kSubsetStep = 5;
+#else
+constexpr unsigned kSubsetStep = 1;
+#endif
+
 void expect_sums_with(Model model, const MaterialOptions& options) {
   Random random(71);
   const unsigned subsets = effects_of(model).bits() == 0 ? 4 : 32;
-  for (unsigned index = 0; index < subsets; ++index) {
+  for (unsigned index = 0; index < subsets; index += kSubsetStep) {
     Material material = testing_support::interior_material(model, isotropic_subset(model, index), random);
     material.options() = options;
     for (const Orders orders : {Orders::kOne, Orders::kMean}) {
