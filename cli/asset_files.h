@@ -10,7 +10,7 @@
 #include "bake/pack.h"
 #include "bake/reconstruct.h"
 #include "brdf/realis_asset.h"
-#include "cli/bake_timings.h"
+#include "cli/clocks.h"
 #include "io/exr_rows.h"
 
 namespace brdfit::cli {

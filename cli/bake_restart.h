@@ -14,7 +14,7 @@
 
 #include "bake/evidence.h"
 #include "bake/plan.h"
-#include "cli/bake_timings.h"
+#include "cli/clocks.h"
 #include "cli/common.h"
 #include "cli/kept_rows.h"
 #include "io/json.h"

@@ -4,32 +4,19 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <ctime>
 #include <iterator>
 
+#include "cli/common.h"
 #include "io/decode_floor.h"
 
 namespace brdfit::cli {
 namespace {
-
-// The clocks and not getrusage, which knows no more than the last tick of the scheduler.
-double cpu_seconds(CpuOf whose) {
-  timespec now{};
-  clock_gettime(whose == CpuOf::kThread ? CLOCK_THREAD_CPUTIME_ID : CLOCK_PROCESS_CPUTIME_ID, &now);
-  return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
-}
 
 double peak_mib() {
   return static_cast<double>(peak_memory_bytes()) / static_cast<double>(1 << 20);
 }
 
 }  // namespace
-
-BothClocks::BothClocks(CpuOf whose) : whose_(whose), cpu_start_(cpu_seconds(whose)) {}
-
-TimeTaken BothClocks::taken() const {
-  return {watch_.seconds(), cpu_seconds(whose_) - cpu_start_};
-}
 
 void BakeTimings::measure_decoding(const io::StackSource& source) {
   const BothClocks clocks;

@@ -15,7 +15,7 @@
 #include "bake/luminance.h"
 #include "bake/shrunk_stack.h"
 #include "cli/bake_stack.h"
-#include "cli/bake_timings.h"
+#include "cli/clocks.h"
 #include "cli/cost/paired_timing.h"
 #include "cli/cost/pareto.h"
 #include "cli/cost/peak_memory.h"
