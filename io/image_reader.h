@@ -79,8 +79,8 @@ struct ImagePixels {
 };
 
 struct ImageWriteOptions {
-  SampleType type = SampleType::kFloat;  // in the file; a format that lacks it is an error
-  int jpeg_quality = 95;                 // 1 to 100
+  SampleType type = SampleType::kFloat;    // in the file; a format that lacks it is an error
+  int jpeg_quality = 95;                   // 1 to 100
   std::string jpeg_subsampling = "4:2:0";  // of colours: 4:4:4, 4:2:2, 4:2:0, 4:1:1
   std::string colour_space = {};  // said in the file where the format can: "sRGB", "Linear"; empty: nothing
 };

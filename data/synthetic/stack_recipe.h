@@ -63,12 +63,12 @@ struct StackFaults {
 };
 
 struct StackFiles {
-  std::string format = "exr";       // what OpenImageIO writes by that ending: exr, png, tif, jpg, ...
-  std::string transfer = "linear";  // linear or srgb: how pixels are encoded
-  int jpeg_quality = 95;            // in [1, 100]; of formats other than JPEG nothing
+  std::string format = "exr";              // what OpenImageIO writes by that ending: exr, png, tif, jpg, ...
+  std::string transfer = "linear";         // linear or srgb: how pixels are encoded
+  int jpeg_quality = 95;                   // in [1, 100]; of formats other than JPEG nothing
   std::string jpeg_subsampling = "4:2:0";  // of colours: 4:4:4 keeps one for each pixel; 4:2:2, 4:2:0, 4:1:1
-  std::string manifest = "json";    // json or lp
-  bool give_normals = false;        // whether the manifest names the true normals and albedo
+  std::string manifest = "json";           // json or lp
+  bool give_normals = false;               // whether the manifest names the true normals and albedo
   bool give_albedo = false;
   friend bool operator==(const StackFiles&, const StackFiles&) = default;
 };
@@ -102,8 +102,8 @@ struct StackRecipe {
 // "dome|ring|sparse", "count", "theta_deg", "intensity", "distance"}, "cast_shadows", "residual": {"lobes",
 // "sharpness", "cut_off_deg", "strength"}, "noise": {...}, "faults": {"gains": [[light, factor]...],
 // "swapped": [[light, light]...], "upside_down", "hot_pixels"}, "files": {"format", "transfer",
-// "jpeg_quality", "jpeg_subsampling", "manifest", "give_normals", "give_albedo"}, "seed"}. All but version, name and materials may be absent. Errors as in
-// recipe.h.
+// "jpeg_quality", "jpeg_subsampling", "manifest", "give_normals", "give_albedo"}, "seed"}. All but version,
+// name and materials may be absent. Errors as in recipe.h.
 io::Json stack_recipe_to_json(const StackRecipe& recipe);
 StackRecipe stack_recipe_from_json(const io::Json& json, const std::string& file);
 StackRecipe read_stack_recipe(const std::filesystem::path& file);
