@@ -5,8 +5,11 @@
 #include <array>
 #include <cstddef>
 #include <cstdint>
+#include <span>
 #include <string_view>
+#include <vector>
 
+#include "io/error.h"
 #include "io/input_file.h"
 
 namespace brdfit::io {
@@ -41,6 +44,23 @@ ImageLayout png_layout(const InputFile& file) {
   return layout;
 }
 
+// What follows a file's first scan must hold an end of image, which cannot stand among coded pixels (T.81,
+// B.1.1.5). Decoders fill up with grey what a file that was cut off lacks. Looked for from the end, where it
+// is.
+void require_end_of_image(const InputFile& file, std::size_t scan) {
+  constexpr std::size_t kPiece = 4096;
+  for (std::size_t end = file.size(); end > scan + 1;) {
+    const std::size_t begin = end - scan > kPiece ? end - kPiece : scan;
+    std::vector<std::uint8_t> piece(end - begin);
+    file.read_at(begin, std::as_writable_bytes(std::span(piece)));
+    constexpr std::array<std::uint8_t, 2> kEnd = {0xFF, 0xD9};
+    if (!std::ranges::search(piece, kEnd).empty()) return;
+    end = begin + (begin > scan ? 1 : 0);  // the marker may lie across two pieces
+  }
+  throw IoError(IoError::Side::kInput, file.name(), "is cut off: it has no end of image",
+                "a whole JPEG file");
+}
+
 // ITU-T T.81, B.1: 0xFF, marker, length with itself, data. SOF2 is progressive; SOS begins the pixels. An
 // APP2 that begins with ICC_PROFILE holds one.
 ImageLayout jpeg_layout(const InputFile& file) {
@@ -48,6 +68,7 @@ ImageLayout jpeg_layout(const InputFile& file) {
   std::size_t at = 2;
   while (at + 4 <= file.size()) {
     const auto head = bytes_at<4>(file, at);
+    if (head[0] == 0xFF && head[1] == 0xDA) require_end_of_image(file, at);
     if (head[0] != 0xFF || head[1] == 0xDA || head[1] == 0xD9) break;
     if (head[1] == 0xFF) {  // fill
       ++at;

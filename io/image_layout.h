@@ -13,7 +13,8 @@ struct ImageLayout {
   bool says_colour_space = false;
 };
 
-// Of other formats: both false. Throws IoError (kInput) when the file cannot be read.
+// Of other formats: both false. Throws IoError (kInput) when the file cannot be read, or is a JPEG that was
+// cut off among its pixels, which decoders fill up with grey without a word.
 ImageLayout layout_of(const std::filesystem::path& file);
 
 }  // namespace brdfit::io

@@ -10,6 +10,7 @@
 #include <limits>
 #include <vector>
 
+#include "io/image_layout.h"
 #include "tests/temp_folder.h"
 
 namespace brdfit::io {
@@ -184,6 +185,24 @@ TEST(ImageReader, JpegKeepsTheColourOfEachPixelWhereAsked) {
   };
   EXPECT_LT(red_of_blue("4:4:4"), 10);
   EXPECT_GT(red_of_blue("4:2:0"), 50);
+}
+
+TEST(ImageLayout, RefusesAJpegThatWasCutOffAmongItsPixels) {
+  const TempFolder folder;
+  const auto file = folder / "a.jpg";
+  write_image(file, pixels_of(128, 128, 3, SampleType::kUint8, picture8(128, 128, 3)),
+              {.type = SampleType::kUint8, .jpeg_quality = 98});
+  const auto whole = std::filesystem::file_size(file);
+  EXPECT_NO_THROW(layout_of(file));
+  // What follows the end does not matter, however long; nor where pieces of the search meet.
+  for (const std::size_t more : {1U, 4095U, 4096U, 20000U}) {
+    std::filesystem::resize_file(file, whole + more);
+    EXPECT_NO_THROW(layout_of(file)) << more;
+  }
+  for (const std::size_t less : {1U, 2U, 4096U, static_cast<unsigned>(whole / 2)}) {
+    std::filesystem::resize_file(file, whole - less);
+    EXPECT_THROW(layout_of(file), IoError) << less;
+  }
 }
 
 std::string message_of(const std::filesystem::path& file, IoError::Side side) {
